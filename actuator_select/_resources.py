@@ -1,0 +1,88 @@
+"""Where the program's own files and the user's files are."""
+
+import os
+import tempfile
+from pathlib import Path
+
+from actuator_select.errors import OutputNotWritable
+
+_PACKAGE = Path(__file__).resolve().parent
+
+
+def shipped_dir(name: str) -> Path:
+    """Folder of shipped files, in an installed wheel or in a checkout.
+
+    Parameters
+    ----------
+    name : str
+        ``"catalog"`` or ``"migrations"``.
+
+    Returns
+    -------
+    Path
+        The existing folder.
+
+    Raises
+    ------
+    FileNotFoundError
+        If the installation is incomplete.
+    """
+    for folder in (_PACKAGE / f"_{name}", _PACKAGE.parent / name):
+        if folder.is_dir():
+            return folder
+    raise FileNotFoundError(f"the installation lacks its folder {name!r}; install actuator-select again")
+
+
+def user_data_dir() -> Path:
+    """Folder of the user's database, by the platform's convention."""
+    from platformdirs import user_data_path
+
+    return user_data_path("actuator-select", appauthor=False)
+
+
+def user_cache_dir() -> Path:
+    """Folder of what can be made again, by the platform's convention."""
+    from platformdirs import user_cache_path
+
+    return user_cache_path("actuator-select", appauthor=False)
+
+
+def replace_atomically(path: Path, content: str | bytes) -> None:
+    """Write a file whole or not at all.
+
+    Parameters
+    ----------
+    path : Path
+        The file; its folder must exist.
+    content : str or bytes
+        Text is written as UTF-8.
+
+    Raises
+    ------
+    OutputNotWritable
+        If the folder is missing or the file cannot be written; an existing file is then untouched.
+    """
+    data = content.encode() if isinstance(content, str) else content
+    try:
+        if path.is_dir():
+            raise IsADirectoryError(21, "it is a folder")
+        handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
+    except OSError as error:
+        raise OutputNotWritable(_cannot_write(path, error)) from error
+    try:
+        with os.fdopen(handle, "wb") as file:
+            file.write(data)
+        mask = os.umask(0)
+        os.umask(mask)
+        Path(temporary).chmod(0o666 & ~mask)
+        Path(temporary).replace(path)
+    except OSError as error:
+        Path(temporary).unlink(missing_ok=True)
+        raise OutputNotWritable(_cannot_write(path, error)) from error
+    except BaseException:
+        Path(temporary).unlink(missing_ok=True)
+        raise
+
+
+def _cannot_write(path: Path, error: OSError) -> str:
+    return f"cannot write {path}: {error.strerror or error}; choose a file in a folder that exists and may be written"

@@ -1,0 +1,102 @@
+"""The command line: thin commands over the public Python functions.
+
+Commands are imported when they are called, so that ``--help`` answers at once.
+"""
+
+import importlib
+import os
+import sys
+from collections.abc import Sequence
+
+import click
+
+from actuator_select._version import __version__
+from actuator_select.errors import ActuatorSelectError
+
+EXIT_DONE = 0
+EXIT_OUR_FAULT = 1
+EXIT_BAD_INPUT = 2
+EXIT_INTERRUPTED = 130
+
+COMMANDS = {
+    "rank": ("actuator_select.cli.rank", "Rank actuators by the share of the workspace that they can serve."),
+    "report": ("actuator_select.cli.report", "Write the design report, one self-contained HTML file."),
+    "simulate": ("actuator_select.cli.simulate", "Drive one actuator along a straight line and show its limits."),
+    "study": ("actuator_select.cli.study", "List, show and start study files."),
+    "catalog": ("actuator_select.cli.catalog", "Query, extend and check the catalogue."),
+}
+
+
+class LazyGroup(click.Group):
+    """A group that knows its commands by name and imports one when it is called."""
+
+    def list_commands(self, ctx: click.Context) -> list[str]:  # noqa: ARG002 - the signature is click's
+        return list(COMMANDS)
+
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:  # noqa: ARG002
+        if cmd_name not in COMMANDS:
+            return None
+        module, _ = COMMANDS[cmd_name]
+        command: click.Command = importlib.import_module(module).command
+        return command
+
+    def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:  # noqa: ARG002
+        with formatter.section("Commands"):
+            formatter.write_dl([(name, summary) for name, (_, summary) in COMMANDS.items()])
+
+
+@click.group(cls=LazyGroup, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110})
+@click.version_option(__version__, prog_name="actuator-select")
+def command() -> None:
+    """Choose motors, gearboxes and winches for cable-driven robots.
+
+    \b
+    Start with the paper's case study:
+        actuator-select rank cpr8
+        actuator-select report cpr8 --output cpr8.html
+    Then with your own robot:
+        actuator-select study new my-robot.toml
+        actuator-select rank my-robot.toml
+    """
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the program.
+
+    Parameters
+    ----------
+    arguments : sequence of str, optional
+        The command line without the program's name; the process's own by default.
+
+    Returns
+    -------
+    int
+        0 done, 1 a fault of the program, 2 the question cannot be posed, 130 interrupted.
+    """
+    try:
+        command.main(args=arguments, prog_name="actuator-select", standalone_mode=False)
+    except click.exceptions.Exit as stop:
+        return stop.exit_code
+    except click.ClickException as error:
+        error.show()
+        return EXIT_BAD_INPUT
+    except ActuatorSelectError as error:
+        click.echo(f"Error: {error}", err=True)
+        return EXIT_BAD_INPUT
+    except (click.Abort, KeyboardInterrupt):
+        click.echo("Interrupted.", err=True)
+        return EXIT_INTERRUPTED
+    except BrokenPipeError:
+        # The reader (head, less) has what it wanted; the interpreter must not complain when it flushes at exit.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return EXIT_DONE
+    except Exception as error:
+        if os.environ.get("ACTUATOR_SELECT_TRACEBACK"):
+            raise
+        click.echo(
+            f"Error: a fault of actuator-select, not of your input: {type(error).__name__}: {error}\n"
+            "Set ACTUATOR_SELECT_TRACEBACK=1, repeat the command and report what it prints.",
+            err=True,
+        )
+        return EXIT_OUR_FAULT
+    return EXIT_DONE

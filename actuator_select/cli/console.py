@@ -1,0 +1,105 @@
+"""What every command says, and where: results to stdout, everything else to stderr."""
+
+import csv
+import io
+import json
+import sys
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from typing import Any
+
+import click
+
+PIPED_WIDTH = 200  # columns of a table that goes to a file or a pipe
+PROGRESS_DELAY = 1.0  # seconds before a progress bar appears
+
+
+def emit_json(value: object) -> None:
+    """Print strict JSON; a NaN or an infinity in it is a fault of the program."""
+    click.echo(json.dumps(value, indent=2, ensure_ascii=False, allow_nan=False))
+
+
+def emit_csv(header: Sequence[str], rows: Sequence[Sequence[object]]) -> None:
+    """Print CSV; None is an empty cell."""
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(header)
+    writer.writerows([["" if cell is None else cell for cell in row] for row in rows])
+    click.echo(text.getvalue(), nl=False)
+
+
+def emit_table(
+    header: Sequence[str], rows: Sequence[Sequence[str]], *, right: Sequence[int] = (), title: str | None = None
+) -> None:
+    """Print a table for people; `right` lists the columns that are aligned to the right."""
+    from rich import box
+    from rich.console import Console
+    from rich.table import Table
+    from rich.text import Text
+
+    table = Table(title=title, box=box.SIMPLE_HEAD, title_justify="left", pad_edge=False)
+    for index, name in enumerate(header):
+        table.add_column(Text(name), justify="right" if index in right else "left", overflow="fold")
+    for row in rows:
+        table.add_row(*(Text(cell) for cell in row))
+    Console(width=None if sys.stdout.isatty() else PIPED_WIDTH, highlight=False).print(table)
+
+
+def say(text: str) -> None:
+    """Tell the user something that is not the result."""
+    click.echo(text, err=True)
+
+
+def warn(text: str) -> None:
+    """Warn the user."""
+    click.echo(f"Warning: {text}", err=True)
+
+
+@contextmanager
+def progress(label: str) -> Iterator[Callable[[int, int], None]]:
+    """Show a bar with the time left on stderr once the work has taken a while.
+
+    Yields
+    ------
+    callable
+        To be called with (done, total).
+    """
+    from rich.console import Console
+    from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
+
+    started = _clock()
+    with Progress(
+        TextColumn("{task.description}"),
+        BarColumn(),
+        TextColumn("{task.percentage:>3.0f} %"),
+        TimeRemainingColumn(),
+        console=Console(stderr=True),
+        transient=True,
+        auto_refresh=False,
+    ) as bar:
+        task = bar.add_task(label, total=None)
+
+        def advance(done: int, total: int) -> None:
+            bar.update(task, completed=done, total=total, refresh=_clock() - started > PROGRESS_DELAY)
+
+        yield advance
+
+
+def _clock() -> float:
+    from time import monotonic
+
+    return monotonic()
+
+
+def plain(record: Mapping[str, Any]) -> dict[str, Any]:
+    """Make a record fit for strict JSON: an unlimited figure becomes the word ``"unlimited"``, NaN becomes null."""
+    from math import isinf, isnan
+
+    def cell(value: object) -> object:
+        if isinstance(value, float) and isinf(value):
+            return "unlimited"
+        if isinstance(value, float) and isnan(value):
+            return None
+        return value
+
+    return {key: cell(value) for key, value in record.items()}
