@@ -31,9 +31,11 @@ class LazyGroup(click.Group):
     """A group that knows its commands by name and imports one when it is called."""
 
     def list_commands(self, ctx: click.Context) -> list[str]:  # noqa: ARG002 - the signature is click's
+        """Name the commands, in the order of a first session."""
         return list(COMMANDS)
 
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:  # noqa: ARG002
+        """Import one command."""
         if cmd_name not in COMMANDS:
             return None
         module, _ = COMMANDS[cmd_name]
@@ -41,6 +43,7 @@ class LazyGroup(click.Group):
         return command
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:  # noqa: ARG002
+        """List the commands without importing them."""
         with formatter.section("Commands"):
             formatter.write_dl([(name, summary) for name, (_, summary) in COMMANDS.items()])
 
@@ -48,7 +51,7 @@ class LazyGroup(click.Group):
 @click.group(cls=LazyGroup, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110})
 @click.version_option(__version__, prog_name="actuator-select")
 def command() -> None:
-    """Choose motors, gearboxes and winches for cable-driven robots.
+    r"""Choose motors, gearboxes and winches for cable-driven robots.
 
     \b
     Start with the paper's case study:
@@ -74,6 +77,20 @@ def main(arguments: Sequence[str] | None = None) -> int:
         0 done, 1 a fault of the program, 2 the question cannot be posed, 130 interrupted.
     """
     try:
+        return _run(arguments)
+    except Exception as error:
+        if os.environ.get("ACTUATOR_SELECT_TRACEBACK"):
+            raise
+        click.echo(
+            f"Error: a fault of actuator-select, not of your input: {type(error).__name__}: {error}\n"
+            "Set ACTUATOR_SELECT_TRACEBACK=1, repeat the command and report what it prints.",
+            err=True,
+        )
+        return EXIT_OUR_FAULT
+
+
+def _run(arguments: Sequence[str] | None) -> int:
+    try:
         command.main(args=arguments, prog_name="actuator-select", standalone_mode=False)
     except click.exceptions.Exit as stop:
         return stop.exit_code
@@ -89,14 +106,4 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except BrokenPipeError:
         # The reader (head, less) has what it wanted; the interpreter must not complain when it flushes at exit.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return EXIT_DONE
-    except Exception as error:
-        if os.environ.get("ACTUATOR_SELECT_TRACEBACK"):
-            raise
-        click.echo(
-            f"Error: a fault of actuator-select, not of your input: {type(error).__name__}: {error}\n"
-            "Set ACTUATOR_SELECT_TRACEBACK=1, repeat the command and report what it prints.",
-            err=True,
-        )
-        return EXIT_OUR_FAULT
     return EXIT_DONE

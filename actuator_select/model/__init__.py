@@ -1,0 +1,1 @@
+"""Mechanics and electromechanics: arrays in, arrays out, SI units and radians throughout."""

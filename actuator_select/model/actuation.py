@@ -1,0 +1,167 @@
+"""From a cable to the motor's terminals: the actuator equation and the limits it has to respect.
+
+Every limit is put at the drum, so that actuators of any radius and ratio are held against the same demand.
+The equations are those of [1].
+
+References
+----------
+.. [1] Filipović & Kevac 2018, doi:10.22190/FUACR1802071F.
+"""
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+import numpy as np
+
+from actuator_select.model.arrays import FloatArray, IntArray
+from actuator_select.model.components import ActuatorSet
+
+
+class Check(StrEnum):
+    """The limits of eqs. 30, 32, 33 and 34."""
+
+    SPEED = "speed"
+    TORQUE = "torque"
+    ACCELERATION = "acceleration"
+    VOLTAGE = "voltage"
+
+
+FIGURES_NEEDED: dict[Check, tuple[str, ...]] = {
+    Check.SPEED: ("motor_speed", "ratio", "drum_radius"),
+    Check.TORQUE: ("motor_torque", "ratio", "efficiency", "drum_radius"),
+    Check.ACCELERATION: ("motor_torque", "rotor_inertia", "ratio", "drum_radius"),
+    Check.VOLTAGE: (
+        "voltage",
+        "back_emf_constant",
+        "torque_constant",
+        "resistance",
+        "friction",
+        "rotor_inertia",
+        "ratio",
+        "efficiency",
+        "drum_radius",
+    ),
+}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ShaftCharacteristics:
+    """Coefficients of u = G φ̈ + L φ̇ + S M at the shaft behind the gearbox.
+
+    Attributes
+    ----------
+    inertia_gain : (C,) array
+        G. [V s²/rad]
+    damping_gain : (C,) array
+        L. [V s/rad]
+    load_gain : (C,) array
+        S. [V/(N m)]
+    inertia : (C,) array
+        J_r, the rotor's inertia at this shaft as eq. 22 has it, the efficiency included. [kg m²]
+    """
+
+    inertia_gain: FloatArray
+    damping_gain: FloatArray
+    load_gain: FloatArray
+    inertia: FloatArray
+
+
+def torque_ratio(actuators: ActuatorSet) -> FloatArray:
+    """N_M = N_V ξ, shaft torque per motor torque, (C,)."""
+    return actuators.ratio * actuators.efficiency
+
+
+def shaft_characteristics(actuators: ActuatorSet) -> ShaftCharacteristics:
+    """Coefficients of eq. 21.
+
+    Parameters
+    ----------
+    actuators : ActuatorSet
+        C actuators.
+
+    Returns
+    -------
+    ShaftCharacteristics
+        NaN where a figure is unknown.
+    """
+    torque_gain = torque_ratio(actuators)
+    speed_times_torque = actuators.ratio * torque_gain
+    back_emf = actuators.back_emf_constant * actuators.ratio  # C_E
+    torque_constant = actuators.torque_constant * torque_gain  # C_M
+    inertia = actuators.rotor_inertia * speed_times_torque  # J_r
+    load_gain = actuators.resistance / torque_constant  # S, eq. 22
+    return ShaftCharacteristics(
+        inertia_gain=inertia * load_gain,  # G, eq. 22
+        damping_gain=actuators.friction * speed_times_torque * load_gain + back_emf,  # L, eq. 22
+        load_gain=load_gain,
+        inertia=inertia,
+    )
+
+
+def cable_speed_limit(actuators: ActuatorSet) -> FloatArray:
+    """Greatest cable speed, (C,), eq. 30. [m/s]"""
+    return actuators.motor_speed / actuators.ratio * actuators.drum_radius
+
+
+def cable_force_limit(actuators: ActuatorSet) -> FloatArray:
+    """Greatest cable force by torque, (C,), eq. 32. [N]"""
+    return actuators.motor_torque * torque_ratio(actuators) / actuators.drum_radius
+
+
+def cable_acceleration_limit(actuators: ActuatorSet) -> FloatArray:
+    """Greatest cable acceleration, (C,), eq. 33; unlimited for a rotor without inertia. [m/s²]
+
+    The efficiency cancels: M_mot N_M / J_r = M_mot / (J_M N_V).
+    """
+    inertia = actuators.rotor_inertia * actuators.ratio
+    with np.errstate(divide="ignore"):
+        return actuators.motor_torque / inertia * actuators.drum_radius
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class VoltageLine:
+    """Eq. 34 at the drum: force + reflected_mass · s + damping · v must stay within ±force_limit.
+
+    Attributes
+    ----------
+    reflected_mass : (C,) array
+        G/(S R_w²) = J_r/R_w². [kg]
+    damping : (C,) array
+        L/(S R_w²). [N s/m]
+    force_limit : (C,) array
+        U/(S R_w), the cable force that the full voltage holds at standstill. [N]
+    """
+
+    reflected_mass: FloatArray
+    damping: FloatArray
+    force_limit: FloatArray
+
+    def take(self, indices: IntArray) -> "VoltageLine":
+        """Actuators at `indices`, in that order."""
+        return VoltageLine(
+            reflected_mass=self.reflected_mass[indices],
+            damping=self.damping[indices],
+            force_limit=self.force_limit[indices],
+        )
+
+
+def voltage_line(actuators: ActuatorSet) -> VoltageLine:
+    """Eqs. 21 and 34 divided by S R_w.
+
+    Parameters
+    ----------
+    actuators : ActuatorSet
+        C actuators.
+
+    Returns
+    -------
+    VoltageLine
+        NaN where a figure is unknown.
+    """
+    shaft = shaft_characteristics(actuators)
+    radius = actuators.drum_radius
+    return VoltageLine(
+        reflected_mass=shaft.inertia / radius**2,
+        damping=shaft.damping_gain / (shaft.load_gain * radius**2),
+        force_limit=actuators.voltage / (shaft.load_gain * radius),
+    )

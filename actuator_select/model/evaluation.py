@@ -1,0 +1,195 @@
+"""Hold every actuator against the demand: how many positions pass each limit, and all of them together.
+
+The limits are those of eqs. 30, 32, 33 and 34 in Filipović & Kevac 2018, doi:10.22190/FUACR1802071F, taken at the drum
+(`actuation`), each at its worst case over the motion set.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from actuator_select.model.actuation import (
+    FIGURES_NEEDED,
+    Check,
+    cable_acceleration_limit,
+    cable_force_limit,
+    cable_speed_limit,
+    voltage_line,
+)
+from actuator_select.model.arrays import BoolArray, FloatArray, IntArray
+from actuator_select.model.components import ActuatorSet
+from actuator_select.model.demand import Demand, Progress
+from actuator_select.model.voltage import VoltageCounter, voltage_demand
+
+ROUNDING = 1e-12  # relative; a demand that exceeds its limit by less is rounding, and passes
+CELLS_AT_ONCE = 1 << 25  # (actuator, position) pairs in one chunk: 32 MiB of verdicts
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CheckCount:
+    """One check over C actuators.
+
+    Attributes
+    ----------
+    evaluated : (C,) array of bool
+        False where a figure that the check needs is unknown.
+    positions : (C,) array
+        Positions at which this limit alone holds at every orientation; -1 where not evaluated.
+    worst_utilisation : (C,) array
+        Largest demand over limit; NaN where not evaluated.
+    worst_position : (C,) array
+        Index of the position where that is; -1 where not evaluated.
+    """
+
+    evaluated: BoolArray
+    positions: IntArray
+    worst_utilisation: FloatArray
+    worst_position: IntArray
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Evaluation:
+    """C actuators held against one demand.
+
+    Attributes
+    ----------
+    demand : Demand
+        At P positions.
+    actuators : ActuatorSet
+        The C actuators.
+    checks : mapping of Check to CheckCount
+        The checks that were asked for.
+    positions : (C,) array
+        Positions at which every evaluated check holds at every orientation.
+    """
+
+    demand: Demand
+    actuators: ActuatorSet
+    checks: Mapping[Check, CheckCount]
+    positions: IntArray
+
+
+def missing_figures(actuators: ActuatorSet, check: Check) -> list[tuple[str, ...]]:
+    """Figures that `check` needs and an actuator lacks, one tuple per actuator."""
+    unknown = {name: np.isnan(getattr(actuators, name)) for name in FIGURES_NEEDED[check]}
+    return [tuple(name for name, missing in unknown.items() if missing[index]) for index in range(len(actuators))]
+
+
+def evaluate_actuators(
+    demand: Demand, actuators: ActuatorSet, checks: Sequence[Check], progress: Progress | None = None
+) -> Evaluation:
+    """Count the positions that each actuator can serve.
+
+    Parameters
+    ----------
+    demand : Demand
+        What the poses ask.
+    actuators : ActuatorSet
+        C actuators.
+    checks : sequence of Check
+        Limits to hold them to.
+    progress : callable, optional
+        Called with (positions done, positions).
+
+    Returns
+    -------
+    Evaluation
+        Counts over positions; memory does not grow with C times P.
+    """
+    scalar = [_scalar_check(demand, actuators, check) for check in checks if check is not Check.VOLTAGE]
+    counts = {one.check: one.count() for one in scalar}
+    voltage = (
+        VoltageCounter(voltage_demand(demand), voltage_line(actuators), ROUNDING) if Check.VOLTAGE in checks else None
+    )
+    positions = len(demand.positions)
+    order = np.arange(positions) if voltage is None else voltage.order
+    joint = np.zeros(len(actuators), dtype=np.int64)
+    step = max(1, CELLS_AT_ONCE // max(1, len(actuators)))
+    for start in range(0, positions, step):
+        chunk = order[start : start + step]
+        passes = np.ones((len(actuators), len(chunk)), dtype=np.bool_)
+        for one in scalar:
+            passes &= one.passes(chunk)
+        joint += passes.sum(axis=1)
+        if voltage is not None:
+            voltage.add(chunk, passes)
+        if progress is not None:
+            progress(start + len(chunk), positions)
+    if voltage is not None:
+        joint = np.where(voltage.evaluated, voltage.joint, joint)
+        counts[Check.VOLTAGE] = CheckCount(
+            evaluated=voltage.evaluated,
+            positions=voltage.alone,
+            worst_utilisation=voltage.worst_utilisation,
+            worst_position=voltage.worst_position,
+        )
+    return Evaluation(
+        demand=demand, actuators=actuators, checks={check: counts[check] for check in checks}, positions=joint
+    )
+
+
+def position_utilisation(demand: Demand, actuators: ActuatorSet, checks: Sequence[Check]) -> dict[Check, FloatArray]:
+    """Demand over limit at every position, for the few actuators that are shown.
+
+    Parameters
+    ----------
+    demand : Demand
+        At P positions.
+    actuators : ActuatorSet
+        C actuators.
+    checks : sequence of Check
+        Limits.
+
+    Returns
+    -------
+    dict of Check to (C, P) array
+        Greatest utilisation over cables and orientations; NaN where a figure is unknown.
+    """
+    result: dict[Check, FloatArray] = {}
+    for check in checks:
+        if check is Check.VOLTAGE:
+            result[check] = voltage_demand(demand).utilisation(voltage_line(actuators))
+        else:
+            scalar = _scalar_check(demand, actuators, check)
+            result[check] = scalar.demand / scalar.limit[:, None]
+    return result
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _ScalarCheck:
+    """A limit that compares one number per position with one number per actuator."""
+
+    check: Check
+    demand: FloatArray  # (P,), the worst over cables and orientations
+    limit: FloatArray  # (C,), NaN unknown
+
+    def passes(self, positions: IntArray) -> BoolArray:
+        """Where the limit holds, (C, p); an unknown limit excludes nothing."""
+        limit = np.where(np.isnan(self.limit), np.inf, self.limit * (1.0 + ROUNDING))
+        demand = self.demand[positions]
+        holds: BoolArray = demand <= limit[:, None]
+        return holds & np.isfinite(demand)
+
+    def count(self) -> CheckCount:
+        evaluated = ~np.isnan(self.limit)
+        finite = np.sort(self.demand[np.isfinite(self.demand)])
+        positions = np.searchsorted(finite, self.limit * (1.0 + ROUNDING), side="right")
+        worst = int(self.demand.argmax())
+        with np.errstate(divide="ignore"):
+            utilisation = self.demand[worst] / self.limit
+        return CheckCount(
+            evaluated=evaluated,
+            positions=np.where(evaluated, positions, -1),
+            worst_utilisation=utilisation,
+            worst_position=np.where(evaluated, worst, -1),
+        )
+
+
+def _scalar_check(demand: Demand, actuators: ActuatorSet, check: Check) -> _ScalarCheck:
+    values, limit = {
+        Check.SPEED: (demand.speed, cable_speed_limit),
+        Check.TORQUE: (demand.force, cable_force_limit),
+        Check.ACCELERATION: (demand.acceleration, cable_acceleration_limit),
+    }[check]
+    return _ScalarCheck(check=check, demand=demand.by_position(values).max(axis=1), limit=limit(actuators))

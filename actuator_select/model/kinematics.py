@@ -1,0 +1,107 @@
+"""From poses to cables: lengths, directions and the structure matrix."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from actuator_select.model.arrays import FloatArray
+from actuator_select.model.robot import CableRobot
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CableGeometry:
+    """Cables at Q poses.
+
+    Attributes
+    ----------
+    lengths : (Q, m) array
+        Straight cable length. [m]
+    directions : (Q, m, 3) array
+        Unit vector from the platform to the frame, world frame. [-]
+    structure_matrix : (Q, 6, m) array
+        Wrench on the platform per unit of tension: force, then moment about the platform's origin. [-, m]
+    """
+
+    lengths: FloatArray
+    directions: FloatArray
+    structure_matrix: FloatArray
+
+
+def rotation_matrix(orientation: FloatArray) -> FloatArray:
+    """Rotation R = Rz(φ) Ry(θ) Rx(ψ).
+
+    Parameters
+    ----------
+    orientation : (..., 3) array
+        Angles ψ, θ, φ. [rad]
+
+    Returns
+    -------
+    (..., 3, 3) array
+        From platform to world coordinates.
+
+    References
+    ----------
+    Eq. 9 in Filipović & Kevac 2018, doi:10.22190/FUACR1802071F.
+    """
+    angles = np.asarray(orientation, dtype=np.float64)
+    (cx, cy, cz), (sx, sy, sz) = np.moveaxis(np.cos(angles), -1, 0), np.moveaxis(np.sin(angles), -1, 0)
+    rows = [
+        [cz * cy, cz * sy * sx - sz * cx, cz * sy * cx + sz * sx],
+        [sz * cy, sz * sy * sx + cz * cx, sz * sy * cx - cz * sx],
+        [-sy, cy * sx, cy * cx],
+    ]
+    return np.stack([np.stack(row, axis=-1) for row in rows], axis=-2)
+
+
+def position_grid(region: FloatArray, points: tuple[int, int, int]) -> FloatArray:
+    """Positions of a regular grid, both ends included; a single point on an axis stands in its middle.
+
+    Parameters
+    ----------
+    region : (3, 2) array
+        Lower and upper end of each axis. [m]
+    points : tuple of int
+        Number of points on each axis, at least 1.
+
+    Returns
+    -------
+    (P, 3) array
+        z varies fastest. [m]
+    """
+    axes = [
+        np.linspace(lower, upper, count) if count > 1 else np.array([(lower + upper) / 2.0])
+        for (lower, upper), count in zip(region, points, strict=True)
+    ]
+    return np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 3)
+
+
+def cable_geometry(robot: CableRobot, positions: FloatArray, orientations: FloatArray) -> CableGeometry:
+    """Cable lengths, directions and structure matrix.
+
+    Parameters
+    ----------
+    robot : CableRobot
+        With m cables.
+    positions : (Q, 3) array
+        Position of the platform's origin. [m]
+    orientations : (Q, 3) or (3,) array
+        Angles ψ, θ, φ. [rad]
+
+    Returns
+    -------
+    CableGeometry
+        A cable of zero length has the direction 0, so that it carries nothing.
+
+    References
+    ----------
+    Eqs. 1-17 and 19 in Filipović & Kevac 2018, doi:10.22190/FUACR1802071F.
+    """
+    arms = np.einsum("...ij,mj->...mi", rotation_matrix(orientations), robot.platform_anchors)  # R b_i
+    arms = np.broadcast_to(arms, (len(positions), robot.cables, 3))
+    cables = robot.frame_anchors - positions[:, None, :] - arms
+    lengths = np.linalg.norm(cables, axis=-1)
+    directions = np.divide(cables, lengths[..., None], out=np.zeros_like(cables), where=lengths[..., None] > 0.0)
+    moments = np.cross(arms, directions)
+    structure_matrix = np.concatenate([directions, moments], axis=-1).swapaxes(-1, -2)
+    return CableGeometry(lengths=lengths, directions=directions, structure_matrix=structure_matrix)

@@ -1,0 +1,97 @@
+"""Verdicts on evaluated actuators, and the order in which they are shown."""
+
+from enum import StrEnum
+
+import numpy as np
+
+from actuator_select.model.arrays import BoolArray, FloatArray, IntArray
+from actuator_select.model.evaluation import Evaluation
+
+PERCENT_TOLERANCE = 1e-9  # per cent; 90 % of 10 positions is 9 positions, whatever the rounding
+
+
+class State(StrEnum):
+    """What became of one check of one actuator."""
+
+    PASSED = "passed"
+    FAILED = "failed"
+    NOT_EVALUATED = "not_evaluated"
+    NOT_APPLICABLE = "not_applicable"
+
+
+class Verdict(StrEnum):
+    """What became of one actuator, best first."""
+
+    MEETS = "meets"
+    UNDECIDED = "undecided"
+    FAILS = "fails"
+
+
+def meets_share(positions: IntArray, total: int, required_percent: float) -> BoolArray:
+    """Tell whether so many positions out of `total` are at least the required share, elementwise."""
+    enough: BoolArray = 100.0 * positions / total >= required_percent - PERCENT_TOLERANCE
+    return enough
+
+
+def verdicts(evaluation: Evaluation, required_percent: float) -> list[Verdict]:
+    """Judge every actuator.
+
+    An actuator with a check that could not be evaluated is at best undecided; it fails only if the checks that could
+    be evaluated exclude too many positions already.
+
+    Parameters
+    ----------
+    evaluation : Evaluation
+        Of C actuators.
+    required_percent : float
+        Share of the positions that has to be served.
+
+    Returns
+    -------
+    list of Verdict
+        One per actuator.
+    """
+    enough = meets_share(evaluation.positions, len(evaluation.demand.positions), required_percent)
+    unknown = not_evaluated(evaluation) > 0
+    return [
+        Verdict.FAILS if not reached else Verdict.UNDECIDED if open_check else Verdict.MEETS
+        for reached, open_check in zip(enough, unknown, strict=True)
+    ]
+
+
+def not_evaluated(evaluation: Evaluation) -> IntArray:
+    """Number of checks that could not be evaluated, (C,)."""
+    open_checks = np.zeros(len(evaluation.actuators), dtype=np.int64)
+    for count in evaluation.checks.values():
+        open_checks += ~count.evaluated
+    return open_checks
+
+
+def worst_utilisation(evaluation: Evaluation) -> FloatArray:
+    """Largest utilisation over the evaluated checks, (C,); NaN where none was evaluated."""
+    stacked = np.stack([count.worst_utilisation for count in evaluation.checks.values()])
+    worst: FloatArray = np.fmax.reduce(stacked, axis=0)
+    return worst
+
+
+def ranking_order(evaluation: Evaluation, required_percent: float) -> IntArray:
+    """Order by verdict, feasible share, fewest checks not evaluated, smallest worst utilisation.
+
+    Parameters
+    ----------
+    evaluation : Evaluation
+        Of C actuators.
+    required_percent : float
+        Share of the positions that has to be served.
+
+    Returns
+    -------
+    (C,) array
+        Indices, best first; equal actuators keep their order.
+    """
+    place = {verdict: index for index, verdict in enumerate(Verdict)}
+    verdict = np.array([place[one] for one in verdicts(evaluation, required_percent)], dtype=np.int64)
+    order: IntArray = np.lexsort(
+        (worst_utilisation(evaluation), not_evaluated(evaluation), -evaluation.positions, verdict)
+    )
+    return order

@@ -1,0 +1,260 @@
+"""Straight-line moves with a trapezoidal speed profile, and what they ask of every cable, instant by instant."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from actuator_select.model.actuation import Check, shaft_characteristics, torque_ratio
+from actuator_select.model.arrays import FloatArray, IntArray
+from actuator_select.model.components import ActuatorSet
+from actuator_select.model.dynamics import RequiredWrench
+from actuator_select.model.kinematics import cable_geometry
+from actuator_select.model.robot import CableRobot
+from actuator_select.model.tension import pseudo_inverse_tensions
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TrapezoidalProfile:
+    """Speed profile of a move from rest to rest: ramp up, cruise, ramp down; a triangle where the way is too short.
+
+    Attributes
+    ----------
+    distance : float
+        Length of the move. [m]
+    speed : float
+        Greatest speed reached. [m/s]
+    acceleration, deceleration : float
+        Of the ramps, both positive. [m/s²]
+    """
+
+    distance: float
+    speed: float
+    acceleration: float
+    deceleration: float
+
+    @property
+    def corners(self) -> FloatArray:
+        """Start, end of the ramp, start of braking, end, (4,). [s]"""
+        ramp, brake = self.speed / self.acceleration, self.speed / self.deceleration
+        cruise = max(0.0, self.distance / self.speed - (ramp + brake) / 2.0)
+        return np.cumsum([0.0, ramp, cruise, brake])
+
+    def motion(self, times: FloatArray, phase: int) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Way, speed and acceleration along the line as the given phase has them.
+
+        Parameters
+        ----------
+        times : (S,) array
+            Within the phase, its ends included. [s]
+        phase : int
+            0 ramp up, 1 cruise, 2 ramp down.
+
+        Returns
+        -------
+        tuple of (S,) arrays
+            [m, m/s, m/s²]
+        """
+        start = self.corners
+        if phase == 0:
+            acceleration = np.full_like(times, self.acceleration)
+            return self.acceleration * times**2 / 2.0, self.acceleration * times, acceleration
+        if phase == 1:
+            way = self.speed**2 / (2.0 * self.acceleration) + self.speed * (times - start[1])
+            return way, np.full_like(times, self.speed), np.zeros_like(times)
+        left = start[3] - times
+        acceleration = np.full_like(times, -self.deceleration)
+        return self.distance - self.deceleration * left**2 / 2.0, self.deceleration * left, acceleration
+
+
+def trapezoidal_profile(
+    distance: float, speed: float, acceleration_time: float, deceleration_time: float
+) -> TrapezoidalProfile:
+    """Profile of a move over `distance` that reaches `speed` where the way allows.
+
+    Parameters
+    ----------
+    distance : float
+        Greater than 0. [m]
+    speed : float
+        Cruising speed. [m/s]
+    acceleration_time, deceleration_time : float
+        From rest to the cruising speed and back. A shorter move keeps the accelerations, not the times. [s]
+
+    Returns
+    -------
+    TrapezoidalProfile
+        A triangle if the ramps alone are longer than the way.
+    """
+    acceleration, deceleration = speed / acceleration_time, speed / deceleration_time
+    peak = np.sqrt(2.0 * distance * acceleration * deceleration / (acceleration + deceleration))
+    return TrapezoidalProfile(
+        distance=distance, speed=min(speed, float(peak)), acceleration=acceleration, deceleration=deceleration
+    )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LineMove:
+    """A straight move at constant orientation.
+
+    Attributes
+    ----------
+    start, stop : (3,) array
+        [m]
+    orientation : (3,) array
+        Angles ψ, θ, φ. [rad]
+    profile : TrapezoidalProfile
+        Speed along the line.
+    centripetal : bool
+        Whether the cable's acceleration has its term (‖v‖² - (u·v)²)/l.
+    """
+
+    start: FloatArray
+    stop: FloatArray
+    orientation: FloatArray
+    profile: TrapezoidalProfile
+    centripetal: bool
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DriveHistory:
+    """One actuator type on m cables over S instants; the instants at a corner of the profile stand twice.
+
+    Attributes
+    ----------
+    times : (S,) array
+        Not decreasing. [s]
+    phases : (S,) array
+        Phase of the profile from whose side the instant is taken.
+    tension : (S, m) array
+        [N]
+    speed, acceleration : (S, m) array
+        Of the shaft behind the gearbox, winding in positive. [rad/s, rad/s²]
+    torque : (S, m) array
+        Load torque on that shaft. [N m]
+    voltage : (S, m) array
+        At the motor's terminals. [V]
+    """
+
+    times: FloatArray
+    phases: IntArray
+    tension: FloatArray
+    speed: FloatArray
+    acceleration: FloatArray
+    torque: FloatArray
+    voltage: FloatArray
+
+    def of(self, check: Check) -> FloatArray:
+        """History of the quantity that `check` limits, (S, m)."""
+        return {
+            Check.SPEED: self.speed,
+            Check.TORQUE: self.torque,
+            Check.ACCELERATION: self.acceleration,
+            Check.VOLTAGE: self.voltage,
+        }[check]
+
+
+def shaft_limits(actuator: ActuatorSet) -> dict[Check, float]:
+    """Limits of one actuator at the shaft behind the gearbox, eqs. 30, 32, 33, 34; NaN where unknown.
+
+    Parameters
+    ----------
+    actuator : ActuatorSet
+        A single one.
+
+    Returns
+    -------
+    dict of Check to float
+        [rad/s, N m, rad/s², V]
+    """
+    torque = actuator.motor_torque * torque_ratio(actuator)
+    inertia = actuator.rotor_inertia * actuator.ratio
+    with np.errstate(divide="ignore"):
+        acceleration = actuator.motor_torque / inertia
+    return {
+        Check.SPEED: float((actuator.motor_speed / actuator.ratio)[0]),
+        Check.TORQUE: float(torque[0]),
+        Check.ACCELERATION: float(acceleration[0]),
+        Check.VOLTAGE: float(actuator.voltage[0]),
+    }
+
+
+def drive_history(
+    robot: CableRobot,
+    wrench: RequiredWrench,
+    move: LineMove,
+    actuator: ActuatorSet,
+    times: FloatArray,
+    phases: IntArray,
+) -> DriveHistory:
+    """Shaft speed, acceleration, torque and voltage of every actuator, from exact derivatives.
+
+    Parameters
+    ----------
+    robot : CableRobot
+        With m cables.
+    wrench : RequiredWrench
+        What the cables must supply together.
+    move : LineMove
+        The motion.
+    actuator : ActuatorSet
+        A single one, the same on every cable.
+    times, phases : (S,) array
+        Instants [s], and from which phase's side each is taken.
+
+    Returns
+    -------
+    DriveHistory
+        Under the pseudo-inverse tension model.
+
+    References
+    ----------
+    Eqs. 18-22 in Filipović & Kevac 2018, doi:10.22190/FUACR1802071F.
+    """
+    way, speed, acceleration = np.empty_like(times), np.empty_like(times), np.empty_like(times)
+    for phase in range(3):
+        chosen = phases == phase
+        way[chosen], speed[chosen], acceleration[chosen] = move.profile.motion(times[chosen], phase)
+    line = (move.stop - move.start) / move.profile.distance
+    geometry = cable_geometry(robot, move.start + way[:, None] * line, move.orientation)
+    tensions = pseudo_inverse_tensions(geometry.structure_matrix, wrench)
+    tension = tensions.static + tensions.per_acceleration @ line * acceleration[:, None]
+    along = geometry.directions @ line  # cosine between cable and line
+    cable_speed = along * speed[:, None]
+    cable_acceleration = along * acceleration[:, None]
+    if move.centripetal:
+        cable_acceleration = cable_acceleration - (speed[:, None] ** 2 - cable_speed**2) / geometry.lengths
+    radius = float(actuator.drum_radius[0])
+    shaft_speed, shaft_acceleration, torque = cable_speed / radius, cable_acceleration / radius, tension * radius
+    shaft = shaft_characteristics(actuator)
+    return DriveHistory(
+        times=times,
+        phases=phases,
+        tension=tension,
+        speed=shaft_speed,
+        acceleration=shaft_acceleration,
+        torque=torque,
+        voltage=shaft.inertia_gain * shaft_acceleration
+        + shaft.damping_gain * shaft_speed
+        + shaft.load_gain * torque,  # eq. 21
+    )
+
+
+def instants(profile: TrapezoidalProfile, per_phase: int) -> tuple[FloatArray, IntArray]:
+    """Instants of every phase that lasts, both its ends included.
+
+    Parameters
+    ----------
+    profile : TrapezoidalProfile
+        With up to three phases.
+    per_phase : int
+        Instants in each.
+
+    Returns
+    -------
+    tuple of (S,) arrays
+        Times [s] and phases.
+    """
+    corners = profile.corners
+    lasting = [phase for phase in range(3) if corners[phase + 1] > corners[phase]]
+    times = [np.linspace(corners[phase], corners[phase + 1], per_phase) for phase in lasting]
+    return np.concatenate(times), np.repeat(np.array(lasting, dtype=np.int64), per_phase)

@@ -1,0 +1,306 @@
+"""The voltage limit, eq. 34, at its worst over the motion set: the one check that couples speed, force and inertia.
+
+Divided by S R_w, eq. 21 reads: force + reflected_mass · s + damping · v. Over the ball of velocities and the box of
+accelerations its largest and smallest value have a closed form; over sampled velocities they are a maximum over the
+samples, because the accelerations enter on their own.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from actuator_select.model.actuation import VoltageLine
+from actuator_select.model.arrays import BoolArray, FloatArray, IntArray
+from actuator_select.model.demand import Demand, centripetal_scale
+from actuator_select.model.motion import MotionKind
+
+CELLS_AT_ONCE = 1 << 17  # (actuator, position, cable, sample) cells in one chunk: its scratch stays in the cache
+KERNEL_PAYS_FROM = 60_000_000  # (actuator, position, cable) cells; below, NumPy is done before a compiler is loaded
+
+Kernel = Callable[["VoltageDemand", VoltageLine, BoolArray, "Tally"], None]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class VoltageDemand:
+    """What P positions ask of the voltage, on k = O·m cables each (every cable at every orientation).
+
+    Attributes
+    ----------
+    force, acceleration : (P, k) array
+        Tension [N] and cable acceleration [m/s²] at the centre of the box of accelerations.
+    force_reach, acceleration_reach : (P, k, 3) array
+        Their change from the centre to the box's face, per axis. [N, m/s²]
+    rate_up, rate_down : (P, k) array
+        Greatest cable speed winding in and out. [m/s]
+    speed : float
+        Radius of the ball of velocities. [m/s]
+    inverse_length : (P, k) array
+        1/l, or 0 where the centripetal term is left out. [1/m]
+    rates, across : (P, k, S) array or None
+        Sampled cable speeds [m/s] and centripetal terms [m/s²]; None where the closed form holds.
+    """
+
+    force: FloatArray
+    acceleration: FloatArray
+    force_reach: FloatArray
+    acceleration_reach: FloatArray
+    rate_up: FloatArray
+    rate_down: FloatArray
+    speed: float
+    inverse_length: FloatArray
+    rates: FloatArray | None
+    across: FloatArray | None
+
+    def worst(self, line: VoltageLine) -> FloatArray:
+        """Largest |u|/(S R_w) over motions, cables and orientations, (C, P). [N]"""
+        positions, cables = self.force.shape
+        samples = 1 if self.rates is None else self.rates.shape[-1]
+        result = np.empty((len(line.damping), positions))
+        step = max(1, CELLS_AT_ONCE // (max(1, len(line.damping)) * cables * samples))
+        for start in range(0, positions, step):
+            chunk = slice(start, start + step)
+            result[:, chunk] = self._worst(line, chunk)
+        return result
+
+    def _worst(self, line: VoltageLine, chunk: slice) -> FloatArray:
+        mass = line.reflected_mass[:, None, None]
+        middle = self.force[chunk] + mass * self.acceleration[chunk]
+        reach = np.zeros_like(middle)
+        for axis in range(3):
+            reach += np.abs(self.force_reach[chunk, :, axis] + mass * self.acceleration_reach[chunk, :, axis])
+        up, down = self._velocity_terms(line, chunk)
+        worst: FloatArray = (np.maximum(up + middle, down - middle) + reach).max(axis=-1)
+        return worst
+
+    def _velocity_terms(self, line: VoltageLine, chunk: slice) -> tuple[FloatArray, FloatArray]:
+        """Greatest of ±(damping · v - reflected_mass · centripetal), each (C, p, k)."""
+        mass, damping = line.reflected_mass[:, None, None], line.damping[:, None, None]
+        if self.rates is not None and self.across is not None:
+            terms = damping[..., None] * self.rates[chunk] - mass[..., None] * self.across[chunk]
+            return terms.max(axis=-1), -terms.min(axis=-1)
+        up = damping * self.rate_up[chunk]
+        down = damping * self.rate_down[chunk]
+        # Winding out at u·v = -s: damping s + mass (V² - s²)/l is largest at s = damping l/(2 mass) if that is below V.
+        inverse_length = self.inverse_length[chunk]
+        inside = damping < 2.0 * mass * self.speed * inverse_length
+        if inside.any():
+            with np.errstate(divide="ignore", invalid="ignore"):
+                peak = mass * self.speed**2 * inverse_length + damping**2 / (4.0 * mass * inverse_length)
+            down = np.where(inside, peak, down)
+        return up, down
+
+    def take(self, positions: IntArray) -> "VoltageDemand":
+        """Demand of the positions at these indices, in this order."""
+
+        def chosen(values: FloatArray | None) -> FloatArray | None:
+            return None if values is None else values[positions]
+
+        return replace(
+            self,
+            force=self.force[positions],
+            acceleration=self.acceleration[positions],
+            force_reach=self.force_reach[positions],
+            acceleration_reach=self.acceleration_reach[positions],
+            rate_up=self.rate_up[positions],
+            rate_down=self.rate_down[positions],
+            inverse_length=self.inverse_length[positions],
+            rates=chosen(self.rates),
+            across=chosen(self.across),
+        )
+
+    def utilisation(self, line: VoltageLine) -> FloatArray:
+        """Largest |u|/U at every position, (C, P); NaN where a figure is unknown."""
+        return self.worst(line) / line.force_limit[:, None]
+
+
+def voltage_demand(demand: Demand) -> VoltageDemand:
+    """Gather what the voltage limit needs, position by position.
+
+    Parameters
+    ----------
+    demand : Demand
+        At P positions and O orientations, on m cables.
+
+    Returns
+    -------
+    VoltageDemand
+        With k = O·m.
+    """
+    motion = demand.motion
+    centre, reach = motion.acceleration_centre, motion.acceleration_reach
+    undefined = np.where(demand.lengths > 0.0, 0.0, np.inf)
+    force = demand.static_tension + demand.tension_per_acceleration @ centre + undefined
+    scale = centripetal_scale(demand.lengths, motion)
+    if motion.kind is MotionKind.INDEPENDENT:
+        rate_up = rate_down = np.full_like(force, motion.speed)
+        sampled: tuple[FloatArray, FloatArray] | None = None
+    else:
+        rates = demand.directions @ motion.velocities.T
+        rate_up, rate_down = rates.max(axis=-1), -rates.min(axis=-1)
+        across = scale[..., None] * ((motion.velocities**2).sum(axis=1) - rates**2)
+        sampled = (demand.by_position(rates), demand.by_position(across)) if motion.centripetal else None
+    return VoltageDemand(
+        force=demand.by_position(force),
+        acceleration=demand.by_position(demand.directions @ centre),
+        force_reach=demand.by_position(demand.tension_per_acceleration * reach),
+        acceleration_reach=demand.by_position(demand.directions * reach),
+        rate_up=demand.by_position(rate_up),
+        rate_down=demand.by_position(rate_down),
+        speed=motion.speed,
+        inverse_length=demand.by_position(scale),
+        rates=None if sampled is None else sampled[0],
+        across=None if sampled is None else sampled[1],
+    )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Tally:
+    """Running counts of C actuators, updated in place as positions come in.
+
+    Attributes
+    ----------
+    limit : (C,) array
+        Cable force that the full voltage holds at standstill, with the rounding that is forgiven. [N]
+    alone, joint : (C,) array
+        Positions at which the voltage limit holds; the same where the other checks hold too.
+    worst : (C,) array
+        Largest demand so far. [N]
+    worst_position : (C,) array
+        Where that is, as an index into the positions last added.
+    """
+
+    limit: FloatArray
+    alone: IntArray
+    joint: IntArray
+    worst: FloatArray
+    worst_position: IntArray
+
+
+class VoltageCounter:
+    """Counts the positions within the voltage limit, alone and together with the other checks.
+
+    Parameters
+    ----------
+    rows : VoltageDemand
+        At P positions.
+    line : VoltageLine
+        Of C actuators; those with an unknown figure are left out and keep -1 and NaN.
+    rounding : float
+        Relative excess over the limit that is forgiven.
+
+    Attributes
+    ----------
+    order : (P,) array
+        Order in which positions are best added: the demanding ones first, so that the largest demand is known early
+        and most of the others are decided by a bound.
+    """
+
+    def __init__(self, rows: VoltageDemand, line: VoltageLine, rounding: float) -> None:
+        self._rows = rows
+        self._actuators = len(line.damping)
+        self._known = np.flatnonzero(~np.isnan(line.force_limit + line.damping + line.reflected_mass))
+        self._line = line.take(self._known)
+        count = len(self._known)
+        self._tally = Tally(
+            limit=self._line.force_limit * (1.0 + rounding),
+            alone=np.zeros(count, dtype=np.int64),
+            joint=np.zeros(count, dtype=np.int64),
+            worst=np.full(count, -np.inf),
+            worst_position=np.full(count, -1, dtype=np.int64),
+        )
+        self._worst_position = np.full(count, -1, dtype=np.int64)
+        self._count_chunk = _kernel(rows, count)
+        typical = self._line.take(np.array([_median_index(self._line.reflected_mass)])) if count else None
+        self.order: IntArray = np.arange(len(rows.force)) if typical is None else np.argsort(-rows.worst(typical)[0])
+
+    def add(self, positions: IntArray, others: BoolArray) -> None:
+        """Count the positions at these indices.
+
+        Parameters
+        ----------
+        positions : (p,) array
+            Each position once over all calls.
+        others : (C, p) array of bool
+            Where the other checks hold.
+        """
+        if len(self._known) == 0:
+            return
+        self._tally.worst_position.fill(-1)
+        self._count_chunk(self._rows.take(positions), self._line, others[self._known], self._tally)
+        moved = self._tally.worst_position >= 0
+        self._worst_position[moved] = positions[self._tally.worst_position[moved]]
+
+    def _spread(self, counts: IntArray) -> IntArray:
+        result = np.full(self._actuators, -1, dtype=np.int64)
+        result[self._known] = counts
+        return result
+
+    @property
+    def evaluated(self) -> BoolArray:
+        """Actuators whose every figure is known, (C,)."""
+        known = np.zeros(self._actuators, dtype=np.bool_)
+        known[self._known] = True
+        return known
+
+    @property
+    def alone(self) -> IntArray:
+        """Positions within the voltage limit, (C,)."""
+        return self._spread(self._tally.alone)
+
+    @property
+    def joint(self) -> IntArray:
+        """Positions within every limit, (C,)."""
+        return self._spread(self._tally.joint)
+
+    @property
+    def worst_utilisation(self) -> FloatArray:
+        """Largest |u|/U, (C,)."""
+        result = np.full(self._actuators, np.nan)
+        result[self._known] = self._tally.worst / self._line.force_limit
+        return result
+
+    @property
+    def worst_position(self) -> IntArray:
+        """Index of the position where that is, (C,)."""
+        return self._spread(self._worst_position)
+
+
+def _median_index(values: FloatArray) -> int:
+    return int(np.argsort(values)[len(values) // 2])
+
+
+def _kernel(rows: VoltageDemand, actuators: int) -> Kernel:
+    """Choose the compiled counter where it pays and exists; it knows no sampled centripetal terms."""
+    if rows.rates is not None or actuators * rows.force.size < KERNEL_PAYS_FROM:
+        return count_with_numpy
+    try:
+        from actuator_select.model.voltage_kernel import count
+    except ImportError:
+        return count_with_numpy
+    return count
+
+
+def count_with_numpy(rows: VoltageDemand, line: VoltageLine, others: BoolArray, tally: Tally) -> None:
+    """Evaluate every cell; the definition that the compiled counter has to agree with.
+
+    Parameters
+    ----------
+    rows : VoltageDemand
+        At p positions.
+    line : VoltageLine
+        Of C actuators, every figure known.
+    others : (C, p) array of bool
+        Where the other checks hold.
+    tally : Tally
+        Updated in place.
+    """
+    demand = rows.worst(line)
+    holds = demand <= tally.limit[:, None]
+    tally.alone[:] += holds.sum(axis=1)
+    tally.joint[:] += (holds & others).sum(axis=1)
+    where = demand.argmax(axis=1)
+    largest = demand[np.arange(len(demand)), where]
+    moved = largest > tally.worst
+    tally.worst[moved] = largest[moved]
+    tally.worst_position[moved] = where[moved]

@@ -1,0 +1,31 @@
+"""What users do: evaluate, rank and simulate actuators, and check the catalogue's figures."""
+
+from actuator_select.selection.plausibility import Finding, check_catalogue, check_rows
+from actuator_select.selection.records import selection_record
+from actuator_select.selection.selection import (
+    CheckVerdict,
+    RankedActuator,
+    Selection,
+    StudyEvaluation,
+    Warned,
+    evaluate,
+    rank,
+)
+from actuator_select.selection.simulation import Exceedance, Simulation, simulate
+
+__all__ = [
+    "CheckVerdict",
+    "Exceedance",
+    "Finding",
+    "RankedActuator",
+    "Selection",
+    "Simulation",
+    "StudyEvaluation",
+    "Warned",
+    "check_catalogue",
+    "check_rows",
+    "evaluate",
+    "rank",
+    "selection_record",
+    "simulate",
+]

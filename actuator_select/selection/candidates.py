@@ -1,0 +1,166 @@
+"""From catalogue rows to the model's actuators: the one place where datasheet units become SI."""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from actuator_select.database import Catalogue
+from actuator_select.errors import NoCandidates, UnknownName, did_you_mean
+from actuator_select.model.components import ActuatorSet
+from actuator_select.study import Study
+from actuator_select.units import fraction, kg_m2, metres, rad_per_s
+
+Row = Mapping[str, Any]
+
+
+def _as_printed(value: float) -> float:
+    return value
+
+
+# Figure of the model, column of the catalogue, conversion.
+FIGURE_COLUMNS: tuple[tuple[str, str, Callable[[float], float]], ...] = (
+    ("motor_speed", "motor.rated_speed_rpm", rad_per_s),
+    ("motor_torque", "motor.rated_torque_nm", _as_printed),
+    ("voltage", "motor.nominal_voltage_v", _as_printed),
+    ("back_emf_constant", "motor.back_emf_constant_v_s_per_rad", _as_printed),
+    ("torque_constant", "motor.torque_constant_nm_per_a", _as_printed),
+    ("resistance", "motor.terminal_resistance_ohm", _as_printed),
+    ("friction", "motor.viscous_friction_nm_s_per_rad", _as_printed),
+    ("rotor_inertia", "motor.rotor_inertia_g_cm2", kg_m2),
+    ("drum_radius", "winch.drum_radius_mm", metres),
+)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Candidates:
+    """Actuators to choose among.
+
+    Attributes
+    ----------
+    rows : tuple of mapping
+        Catalogue rows with the joined columns, units as in the column names.
+    actuators : ActuatorSet
+        The same in SI units, NaN where unknown.
+    """
+
+    rows: tuple[Row, ...]
+    actuators: ActuatorSet
+
+    @property
+    def ids(self) -> list[str]:
+        """Catalogue ids."""
+        return [str(row["id"]) for row in self.rows]
+
+    @property
+    def names(self) -> list[str]:
+        """Names for people."""
+        return [str(row["name"]) for row in self.rows]
+
+
+def from_rows(rows: Sequence[Row]) -> Candidates:
+    """Convert catalogue rows.
+
+    Parameters
+    ----------
+    rows : sequence of mapping
+        Rows of ``actuators`` with their joined columns.
+
+    Returns
+    -------
+    Candidates
+        In the order given.
+    """
+    return Candidates(rows=tuple(rows), actuators=ActuatorSet.from_figures([_figures(row) for row in rows]))
+
+
+def find_candidates(study: Study, catalogue: Catalogue, where: str = "") -> Candidates:
+    """Candidates of a study: catalogue rows that meet its own condition and a further one.
+
+    Parameters
+    ----------
+    study : Study
+        Its ``candidates.where`` applies.
+    catalogue : Catalogue
+        Where the actuators are.
+    where : str, optional
+        A further condition.
+
+    Returns
+    -------
+    Candidates
+        By id.
+
+    Raises
+    ------
+    NoCandidates
+        If no row is left.
+    InvalidExpression
+        If a condition cannot be read.
+    """
+    own = study.table.candidates.where
+    rows = catalogue.rows("actuators", where=own)
+    if where:
+        wanted = {row["id"] for row in catalogue.rows("actuators", where=where)}
+        rows = [row for row in rows if row["id"] in wanted]
+    if not rows:
+        conditions = " and ".join(f"({condition})" for condition in (own, where) if condition)
+        raise NoCandidates(
+            f"no actuator in the catalogue meets {conditions}; relax the condition, "
+            "`actuator-select catalog list actuators` shows what there is"
+            if conditions
+            else "the catalogue holds no actuator; `actuator-select catalog add actuators` adds one"
+        )
+    return from_rows(rows)
+
+
+def find_actuator(catalogue: Catalogue, actuator: str) -> Candidates:
+    """One actuator by its id or its name.
+
+    Parameters
+    ----------
+    catalogue : Catalogue
+        Where to look.
+    actuator : str
+        Id, or name in any case.
+
+    Returns
+    -------
+    Candidates
+        With a single row.
+
+    Raises
+    ------
+    UnknownName
+        If there is none.
+    """
+    rows = catalogue.rows("actuators")
+    for row in rows:
+        if actuator == row["id"] or actuator.casefold() == str(row["name"]).casefold():
+            return from_rows([row])
+    known = [str(row[key]) for row in rows for key in ("name", "id")]
+    raise UnknownName(
+        f"no actuator {actuator!r} in the catalogue; {did_you_mean(actuator, known)} "
+        "(`actuator-select catalog list actuators` shows all)"
+    )
+
+
+def _figures(row: Row) -> dict[str, float]:
+    figures = {
+        figure: convert(float(row[column])) for figure, column, convert in FIGURE_COLUMNS if row.get(column) is not None
+    }
+    return figures | _transmission(row)
+
+
+def _transmission(row: Row) -> dict[str, float]:
+    """Ratio and efficiency; the assembly's own efficiency goes before the gearbox's."""
+    stated = row.get("efficiency_percent")
+    if row.get("gearbox_id") is None:
+        # A drum on the motor's shaft has no gear to lose torque in.
+        return {"ratio": 1.0, "efficiency": 1.0 if stated is None else fraction(float(stated))}
+    figures = {}
+    if row.get("gearbox.ratio") is not None:
+        figures["ratio"] = float(row["gearbox.ratio"])
+    efficiency = stated if stated is not None else row.get("gearbox.efficiency_percent")
+    if efficiency is not None:
+        figures["efficiency"] = fraction(float(efficiency))
+    return figures

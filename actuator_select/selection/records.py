@@ -1,0 +1,62 @@
+"""Results as plain records, for JSON and whoever reads it: the public contract of ``--format json``."""
+
+from math import isfinite
+from typing import Any
+
+from actuator_select.selection.selection import CheckVerdict, RankedActuator, Selection
+
+
+def selection_record(selection: Selection, *, only_meeting: bool = False) -> dict[str, Any]:
+    """Ranking as nested dicts and lists of strings, numbers and None; no NaN, no infinity.
+
+    Parameters
+    ----------
+    selection : Selection
+        The ranking.
+    only_meeting : bool
+        Leave out the actuators that do not meet the requirement.
+
+    Returns
+    -------
+    dict
+        ``study``, ``tension_model``, ``motion_set``, ``catalogue``, ``poses``, ``required_percent``, ``warnings`` and
+        ``actuators``, best first.
+    """
+    study = selection.study
+    return {
+        "study": study.name,
+        "tension_model": study.tension_model.value,
+        "motion_set": study.motion.kind.value,
+        "catalogue": {"fingerprint": selection.fingerprint},
+        "poses": selection.poses,
+        "required_percent": selection.required_percent,
+        "warnings": [{"code": one.code, "poses": one.poses, "text": one.text} for one in selection.warnings],
+        "actuators": [
+            _actuator_record(actuator, selection.poses)
+            for actuator in selection.ranked
+            if not only_meeting or actuator.verdict.value == "meets"
+        ],
+    }
+
+
+def _actuator_record(actuator: RankedActuator, poses: int) -> dict[str, Any]:
+    return {
+        "id": actuator.id,
+        "name": actuator.name,
+        "feasible_percent": round(actuator.feasible_percent, 2),
+        "feasible_poses": actuator.feasible_poses,
+        "poses": poses,
+        "verdict": actuator.verdict.value,
+        "checks": {check.value: _check_record(verdict) for check, verdict in actuator.checks.items()},
+    }
+
+
+def _check_record(verdict: CheckVerdict) -> dict[str, Any]:
+    worst = verdict.worst_utilisation
+    return {
+        "state": verdict.state.value,
+        "poses": verdict.poses,
+        "worst_utilisation": worst if worst is not None and isfinite(worst) else None,
+        "worst_position_m": list(verdict.worst_position) if verdict.worst_position else None,
+        "missing": list(verdict.missing),
+    }

@@ -1,0 +1,363 @@
+"""The use case: a study and a catalogue become ranked actuators with their verdicts, and what to mind about them."""
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from actuator_select.database import Catalogue
+from actuator_select.model.actuation import Check
+from actuator_select.model.demand import Demand, Progress, compute_demand
+from actuator_select.model.evaluation import Evaluation, evaluate_actuators, missing_figures
+from actuator_select.model.ranking import State, Verdict, meets_share, ranking_order, verdicts
+from actuator_select.selection.candidates import Candidates, find_candidates
+from actuator_select.study import Study
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Warned:
+    """Something that the percentages rest on and a real robot cannot do.
+
+    Attributes
+    ----------
+    code : str
+        Stable name.
+    poses : int
+        Positions where it happens, at one listed orientation or more.
+    text : str
+        For people.
+    """
+
+    code: str
+    poses: int
+    text: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CheckVerdict:
+    """One check of one actuator.
+
+    Attributes
+    ----------
+    state : State
+        `PASSED` when this limit alone leaves the required share of the positions.
+    poses : int or None
+        Positions at which this limit alone holds; None where it was not evaluated.
+    worst_utilisation : float or None
+        Largest demand over limit.
+    worst_position : tuple of float or None
+        Where that is. [m]
+    missing : tuple of str
+        Figures that are unknown.
+    """
+
+    state: State
+    poses: int | None = None
+    worst_utilisation: float | None = None
+    worst_position: tuple[float, float, float] | None = None
+    missing: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RankedActuator:
+    """One actuator's place in the ranking.
+
+    Attributes
+    ----------
+    index : int
+        Index into the candidates.
+    id, name : str
+        Of the catalogue row.
+    verdict : Verdict
+        Against the requirement.
+    feasible_poses : int
+        Positions at which every check holds at every orientation; where a check was not evaluated, at most so many.
+    feasible_percent : float
+        The same as a share of all positions.
+    checks : dict of Check to CheckVerdict
+        All four; `NOT_APPLICABLE` where the study does not ask for a check.
+    """
+
+    index: int
+    id: str
+    name: str
+    verdict: Verdict
+    feasible_poses: int
+    feasible_percent: float
+    checks: dict[Check, CheckVerdict]
+
+    @property
+    def limiting_check(self) -> Check | None:
+        """The evaluated check that leaves the fewest positions; at a tie, the one exceeded most."""
+        evaluated = [
+            (verdict.poses, -(verdict.worst_utilisation or 0.0), check)
+            for check, verdict in self.checks.items()
+            if verdict.poses is not None
+        ]
+        return min(evaluated)[2] if evaluated else None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class StudyEvaluation:
+    """Candidates held against a study.
+
+    Attributes
+    ----------
+    study : Study
+        What was asked.
+    candidates : Candidates
+        Who was asked.
+    evaluation : Evaluation
+        Arrays: the demand of every pose and cable, the counts of every actuator.
+    """
+
+    study: Study
+    candidates: Candidates
+    evaluation: Evaluation
+
+    def frame(self) -> "pd.DataFrame":
+        """Counts as a table: one row per actuator, positions in total, jointly feasible, and per check."""
+        import pandas as pd
+
+        columns: dict[str, object] = {
+            "name": self.candidates.names,
+            "poses": len(self.study.positions),
+            "feasible_poses": self.evaluation.positions,
+        }
+        for check, count in self.evaluation.checks.items():
+            columns[f"{check.value}_poses"] = np.where(count.evaluated, count.positions, np.nan)
+            columns[f"{check.value}_worst_utilisation"] = count.worst_utilisation
+        return pd.DataFrame(columns, index=pd.Index(self.candidates.ids, name="id"))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Selection:
+    """A ranking.
+
+    Attributes
+    ----------
+    result : StudyEvaluation
+        Study, candidates and arrays.
+    required_percent : float
+        Share of the positions that an actuator has to serve.
+    ranked : tuple of RankedActuator
+        Best first.
+    warnings : tuple of Warned
+        What the percentages rest on.
+    fingerprint : str
+        Of the catalogue's content.
+    """
+
+    result: StudyEvaluation
+    required_percent: float
+    ranked: tuple[RankedActuator, ...]
+    warnings: tuple[Warned, ...]
+    fingerprint: str
+
+    @property
+    def study(self) -> Study:
+        """What was asked."""
+        return self.result.study
+
+    @property
+    def poses(self) -> int:
+        """Positions in total."""
+        return len(self.study.positions)
+
+    def frame(self) -> "pd.DataFrame":
+        """Ranking as a table: one row per actuator, best first, with the counts of every check."""
+        table = self.result.frame().loc[[actuator.id for actuator in self.ranked]]
+        table.insert(1, "verdict", [actuator.verdict.value for actuator in self.ranked])
+        table.insert(2, "feasible_percent", [actuator.feasible_percent for actuator in self.ranked])
+        return table
+
+
+def evaluate(
+    study: Study, catalogue: Catalogue, *, where: str = "", progress: Progress | None = None
+) -> StudyEvaluation:
+    """Hold the catalogue's actuators against a study.
+
+    Parameters
+    ----------
+    study : Study
+        Robot, motion and checks.
+    catalogue : Catalogue
+        Where the candidates are.
+    where : str, optional
+        Condition on the candidates, beside the study's own.
+    progress : callable, optional
+        Called with (work done, work).
+
+    Returns
+    -------
+    StudyEvaluation
+        Arrays, and a DataFrame by ``.frame()``.
+
+    Raises
+    ------
+    NoCandidates
+        If no actuator is left.
+
+    Examples
+    --------
+    >>> result = evaluate(load_study("cpr8"), open_catalogue())
+    >>> result.evaluation.demand.force.shape  # worst cable force, poses × cables
+    (216, 8)
+    """
+    return evaluate_candidates(study, find_candidates(study, catalogue, where), progress)
+
+
+def evaluate_candidates(study: Study, candidates: Candidates, progress: Progress | None = None) -> StudyEvaluation:
+    """As `evaluate`, for candidates at hand."""
+    demand = compute_demand(study.robot, study.positions, study.orientations, study.wrench, study.motion, progress)
+    evaluation = evaluate_actuators(demand, candidates.actuators, study.checks, progress)
+    return StudyEvaluation(study=study, candidates=candidates, evaluation=evaluation)
+
+
+def rank(
+    study: Study,
+    catalogue: Catalogue,
+    *,
+    where: str = "",
+    require: float | None = None,
+    progress: Progress | None = None,
+) -> Selection:
+    """Rank the catalogue's actuators by the share of the positions that they can serve.
+
+    Parameters
+    ----------
+    study : Study
+        Robot, motion and checks.
+    catalogue : Catalogue
+        Where the candidates are.
+    where : str, optional
+        Condition on the candidates, beside the study's own, such as ``"rated_power_w <= 100"``.
+    require : float, optional
+        Required share of the positions; the study's own by default. [%]
+    progress : callable, optional
+        Called with (work done, work).
+
+    Returns
+    -------
+    Selection
+        Ordered by verdict, feasible share, fewest checks not evaluated, smallest worst utilisation.
+
+    Raises
+    ------
+    NoCandidates
+        If no actuator is left.
+
+    References
+    ----------
+    CPR-ACM, section 4 of Filipović & Kevac 2018, doi:10.22190/FUACR1802071F.
+
+    Examples
+    --------
+    >>> selection = rank(load_study("cpr8"), open_catalogue())
+    >>> [(actuator.name, actuator.feasible_poses) for actuator in selection.ranked][:2]
+    [('Actuator 1', 200), ('Actuator 3', 184)]
+    """
+    return rank_result(
+        evaluate(study, catalogue, where=where, progress=progress),
+        require=require,
+        fingerprint=catalogue.fingerprint(),
+    )
+
+
+def rank_result(result: StudyEvaluation, *, require: float | None, fingerprint: str) -> Selection:
+    """Rank what has been evaluated; parameters as for `rank`."""
+    required = result.study.table.requirement.feasible_percent if require is None else require
+    evaluation = result.evaluation
+    verdict = verdicts(evaluation, required)
+    missing = {check: missing_figures(evaluation.actuators, check) for check in evaluation.checks}
+    total = len(result.study.positions)
+    ranked = tuple(
+        RankedActuator(
+            index=int(index),
+            id=result.candidates.ids[index],
+            name=result.candidates.names[index],
+            verdict=verdict[index],
+            feasible_poses=int(evaluation.positions[index]),
+            feasible_percent=100.0 * float(evaluation.positions[index]) / total,
+            checks={check: _check_verdict(result, check, int(index), required, missing) for check in Check},
+        )
+        for index in ranking_order(evaluation, required)
+    )
+    return Selection(
+        result=result,
+        required_percent=required,
+        ranked=ranked,
+        warnings=demand_warnings(evaluation.demand),
+        fingerprint=fingerprint,
+    )
+
+
+def _check_verdict(
+    result: StudyEvaluation, check: Check, index: int, required: float, missing: dict[Check, list[tuple[str, ...]]]
+) -> CheckVerdict:
+    count = result.evaluation.checks.get(check)
+    if count is None:
+        return CheckVerdict(state=State.NOT_APPLICABLE)
+    if not count.evaluated[index]:
+        return CheckVerdict(state=State.NOT_EVALUATED, missing=missing[check][index])
+    positions = count.positions[index]
+    enough = bool(meets_share(positions, len(result.study.positions), required))
+    x, y, z = (float(value) for value in result.study.positions[count.worst_position[index]])
+    return CheckVerdict(
+        state=State.PASSED if enough else State.FAILED,
+        poses=int(positions),
+        worst_utilisation=float(count.worst_utilisation[index]),
+        worst_position=(x, y, z),
+    )
+
+
+def demand_warnings(demand: Demand) -> tuple[Warned, ...]:
+    """What a demand rests on that real cables cannot do, with the positions concerned.
+
+    Parameters
+    ----------
+    demand : Demand
+        Under the pseudo-inverse tension model.
+
+    Returns
+    -------
+    tuple of Warned
+        Only what happens somewhere.
+    """
+    total = len(demand.positions)
+    found = (
+        (
+            "rank_deficient",
+            demand.rank_deficient,
+            "the structure matrix is short of rank: some forces or moments cannot be balanced by any tensions",
+        ),
+        (
+            "negative_tension_at_rest",
+            demand.negative_at_rest,
+            "a cable would have to push while the platform stands still; real cables cannot push",
+        ),
+        (
+            "negative_tension_in_motion",
+            demand.negative_in_motion,
+            "a cable would have to push somewhere in the motion set; real cables cannot push",
+        ),
+        (
+            "unbalanced_wrench",
+            demand.unbalanced,
+            "the pseudo-inverse leaves part of the required wrench unbalanced somewhere in the motion set",
+        ),
+        (
+            "zero_length_cable",
+            (demand.lengths <= 0.0).any(axis=1),
+            "a cable has no length and so no direction; such positions count as not served",
+        ),
+    )
+    counts = ((code, demand.positions_with(poses), reason) for code, poses, reason in found)
+    return tuple(
+        Warned(code=code, poses=count, text=f"At {count} of {total} positions {reason}.")
+        for code, count, reason in counts
+        if count
+    )

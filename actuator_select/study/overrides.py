@@ -1,0 +1,121 @@
+"""``key=value``: change any key of a study without editing its file."""
+
+import re
+from collections.abc import Mapping, Sequence
+from itertools import pairwise
+from typing import Any
+
+import tomlkit
+from tomlkit.exceptions import TOMLKitError
+
+from actuator_select.errors import InvalidStudy, Problem
+
+_BARE_WORD = re.compile(r"[A-Za-z_][\w.-]*")
+_KEY_PART = re.compile(r"([A-Za-z0-9_-]+)((?:\[\d+\])*)")
+
+
+def parse_overrides(assignments: Sequence[str]) -> dict[str, object]:
+    """Read assignments as they stand on a command line.
+
+    Parameters
+    ----------
+    assignments : sequence of str
+        Each ``key=value``; the key is dotted (``robot.cable[0].frame_anchor_m``), the value is TOML. A bare word is
+        taken as text, so that shells need no second pair of quotes.
+
+    Returns
+    -------
+    dict of str to object
+        Key to value, later assignments over earlier ones.
+
+    Raises
+    ------
+    InvalidStudy
+        For every assignment that cannot be read.
+    """
+    values: dict[str, object] = {}
+    problems = []
+    for assignment in assignments:
+        key, _, text = assignment.partition("=")
+        value = _toml_value(text.strip())
+        if key.strip() and value is not None:
+            values[key.strip()] = value
+        else:
+            problems.append(
+                Problem(
+                    place="--set",
+                    value=repr(assignment),
+                    expected="KEY=VALUE with a TOML value",
+                    remedy="write for example workspace.points=[11,11,11] or requirement.feasible_percent=95",
+                )
+            )
+    if problems:
+        raise InvalidStudy("the study cannot be changed so", problems)
+    return values
+
+
+def _toml_value(text: str) -> object | None:
+    """Value of a piece of TOML, or None where it is not one value."""
+    try:
+        content = tomlkit.parse(f"value = {text}").unwrap()
+    except TOMLKitError:
+        return text if _BARE_WORD.fullmatch(text) else None
+    return content["value"] if len(content) == 1 else None
+
+
+def apply_overrides(document: tomlkit.TOMLDocument, overrides: Mapping[str, object]) -> None:
+    """Set keys of a parsed study file in place; comments and order stay.
+
+    Parameters
+    ----------
+    document : tomlkit.TOMLDocument
+        The study.
+    overrides : mapping of str to object
+        Dotted key to value. A table that is missing is made, an unknown key is left for the study's validation.
+
+    Raises
+    ------
+    InvalidStudy
+        Where a key leads through a value that is no table, or past the end of a list.
+    """
+    for key, value in overrides.items():
+        steps = _steps(key)
+        container: Any = document
+        try:
+            for step, following in pairwise(steps):
+                if isinstance(following, str) and isinstance(step, str) and step not in container:
+                    container[step] = tomlkit.table()
+                container = container[step]
+            container[steps[-1]] = value
+        except (KeyError, IndexError, TypeError, TOMLKitError) as error:
+            raise InvalidStudy(
+                "the study cannot be changed so",
+                [
+                    Problem(
+                        place=key,
+                        value="leads nowhere",
+                        expected="a key of the study, such as motion.speed_max_m_per_s",
+                        remedy="`actuator-select study show` prints the study with its keys",
+                    )
+                ],
+            ) from error
+    if "workspace.box_m" in overrides and "workspace.region" not in overrides:
+        document["workspace"].pop("region", None)  # a box replaces the builder's region
+
+
+def _steps(key: str) -> list[str | int]:
+    steps: list[str | int] = []
+    for part in key.split("."):
+        match = _KEY_PART.fullmatch(part)
+        if match is None:
+            raise InvalidStudy(
+                "the study cannot be changed so",
+                [
+                    Problem(
+                        place="--set", value=repr(key), expected="a dotted key such as robot.cable[0].frame_anchor_m"
+                    )
+                ],
+            )
+        steps.append(match[1])
+        steps.extend(int(index) for index in re.findall(r"\d+", match[2]))
+    return steps

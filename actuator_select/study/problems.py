@@ -1,0 +1,136 @@
+"""From pydantic's errors to messages with key path, value, expectation, unit and remedy."""
+
+import json
+from collections.abc import Sequence
+from typing import Any, get_args
+
+from pydantic import BaseModel, ValidationError
+from pydantic_core import ErrorDetails
+
+from actuator_select.errors import Problem, did_you_mean
+from actuator_select.study.schema import StudyTable
+
+_UNITS = {
+    "_m_per_s2": "m/s²",
+    "_m_per_s": "m/s",
+    "_percent": "per cent, 0 to 100",
+    "_rad": "rad",
+    "_kg": "kg",
+    "_m": "m",
+    "_s": "s",
+}
+
+_EXPECTED = {
+    "missing": "this key",
+    "extra_forbidden": "no such key",
+    "float_type": "a number",
+    "int_type": "a whole number",
+    "bool_type": "true or false",
+    "string_type": "text in quotes",
+    "string_too_short": "text that is not empty",
+    "finite_number": "a finite number",
+    "tuple_type": "a list in brackets",
+    "model_type": "a table",
+    "dict_type": "a table",
+}
+
+
+def study_problems(error: ValidationError) -> list[Problem]:
+    """Translate every problem that the validation of a study found.
+
+    Parameters
+    ----------
+    error : ValidationError
+        Of `StudyTable`.
+
+    Returns
+    -------
+    list of Problem
+        In the order of the schema.
+    """
+    return [_problem(details) for details in error.errors(include_url=False)]
+
+
+def _problem(details: ErrorDetails) -> Problem:
+    kind, location = details["type"], details["loc"]
+    unit = _unit(location)
+    if kind == "missing":
+        return Problem(
+            place=_path(location), value="is missing", expected=f"a value{_in(unit)}", remedy="add the key to the study"
+        )
+    if kind == "extra_forbidden":
+        known = _known_keys(location[:-1])
+        return Problem(
+            place=_path(location),
+            value="is not a key of a study",
+            expected="one that the study knows",
+            remedy=did_you_mean(str(location[-1]), known),
+        )
+    return Problem(place=_path(location), value=_shown(details["input"]), expected=_expectation(details) + _in(unit))
+
+
+def _expectation(details: ErrorDetails) -> str:
+    kind, context = details["type"], details.get("ctx", {})
+    if kind in _EXPECTED:
+        return _EXPECTED[kind]
+    bounds = {
+        "greater_than": ("gt", "more than"),
+        "greater_than_equal": ("ge", "at least"),
+        "less_than_equal": ("le", "at most"),
+    }
+    if kind in bounds:
+        key, words = bounds[kind]
+        return f"{words} {context[key]:g}"
+    if kind == "literal_error":
+        return f"one of {context['expected']}"
+    if kind in ("too_short", "too_long"):
+        wanted = context.get("min_length", context.get("max_length"))
+        return f"{'at least ' if kind == 'too_short' else 'at most '}{wanted} entries"
+    if kind == "value_error":
+        return str(context["error"])
+    return details["msg"][:1].lower() + details["msg"][1:]
+
+
+def _path(location: Sequence[str | int]) -> str:
+    path = ""
+    for step in location:
+        path += f"[{step}]" if isinstance(step, int) else f".{step}" if path else step
+    return path or "the study"
+
+
+def _shown(value: object) -> str:
+    if isinstance(value, dict):
+        return "the table as it stands"
+    try:
+        return json.dumps(value, ensure_ascii=False)
+    except TypeError:
+        return str(value)
+
+
+def _unit(location: Sequence[str | int]) -> str:
+    for step in reversed(location):
+        if isinstance(step, str):
+            return next((unit for suffix, unit in _UNITS.items() if step.endswith(suffix)), "")
+    return ""
+
+
+def _in(unit: str) -> str:
+    return f" [{unit}]" if unit else ""
+
+
+def _known_keys(location: Sequence[str | int]) -> list[str]:
+    """Keys of the table at `location`."""
+    model: type[BaseModel] = StudyTable
+    for step in location:
+        if isinstance(step, str):
+            found = _table_type(model.model_fields[step].annotation)
+            if found is None:
+                return []
+            model = found
+    return list(model.model_fields)
+
+
+def _table_type(annotation: Any) -> type[BaseModel] | None:  # noqa: ANN401 - an annotation can be anything
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        return annotation
+    return next((found for argument in get_args(annotation) if (found := _table_type(argument))), None)
