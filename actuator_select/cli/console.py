@@ -50,6 +50,12 @@ def say(text: str) -> None:
     click.echo(text, err=True)
 
 
+def say_all(notices: Sequence[str]) -> None:
+    """Tell the user several things, such as what opening the catalogue did."""
+    for notice in notices:
+        say(notice)
+
+
 def warn(text: str) -> None:
     """Warn the user."""
     click.echo(f"Warning: {text}", err=True)

@@ -3,7 +3,9 @@
 from math import isfinite
 from typing import Any
 
+from actuator_select.model.actuation import Check
 from actuator_select.selection.selection import CheckVerdict, RankedActuator, Selection
+from actuator_select.selection.simulation import UNITS, Simulation
 
 
 def selection_record(selection: Selection, *, only_meeting: bool = False) -> dict[str, Any]:
@@ -60,3 +62,49 @@ def _check_record(verdict: CheckVerdict) -> dict[str, Any]:
         "worst_position_m": list(verdict.worst_position) if verdict.worst_position else None,
         "missing": list(verdict.missing),
     }
+
+
+def simulation_record(run: Simulation) -> dict[str, Any]:
+    """Simulation as nested dicts and lists: limits, peaks per cable with their times, exceedances, pushing cables.
+
+    Parameters
+    ----------
+    run : Simulation
+        The simulated move.
+
+    Returns
+    -------
+    dict
+        Quantities at the shaft behind the gearbox; None where a figure is unknown.
+    """
+    return {
+        "study": run.study.name,
+        "actuator": {"id": run.candidates.ids[0], "name": run.candidates.names[0]},
+        "tension_model": run.study.tension_model.value,
+        "duration_s": run.duration,
+        "units": {check.value: unit for check, unit in UNITS.items()},
+        "limits": {check.value: _finite(run.limits[check]) for check in Check},
+        "peaks": {
+            check.value: [
+                {"actuator": cable + 1, "peak": _finite(peak), "time_s": _finite(time)}
+                for cable, (peak, time) in enumerate(zip(run.peaks[check], run.peak_times[check], strict=True))
+            ]
+            for check in Check
+        },
+        "exceedances": [
+            {
+                "actuator": one.actuator,
+                "check": one.check.value,
+                "from_s": one.start,
+                "to_s": one.stop,
+                "worst": one.worst,
+                "limit": one.limit,
+            }
+            for one in run.exceedances
+        ],
+        "negative_tension_cables": run.pushing,
+    }
+
+
+def _finite(value: float) -> float | None:
+    return float(value) if isfinite(value) else None

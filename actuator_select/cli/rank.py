@@ -1,0 +1,126 @@
+"""``actuator-select rank``."""
+
+from typing import TYPE_CHECKING
+
+import click
+
+from actuator_select.cli import console, options
+
+if TYPE_CHECKING:
+    from actuator_select.selection import RankedActuator, Selection
+
+
+@click.command("rank")
+@click.argument("study", metavar="STUDY")
+@options.set_option
+@options.where_option
+@click.option(
+    "--require",
+    type=click.FloatRange(0.0, 100.0),
+    metavar="PERCENT",
+    help="Share of the workspace that has to be served; the study's own requirement by default.",
+)
+@click.option("--only-meeting", is_flag=True, help="Show only the actuators that meet the requirement.")
+@options.format_option("table", "json", "csv")
+@options.database_option
+def command(
+    study: str,
+    overrides: tuple[str, ...],
+    where: str,
+    require: float | None,
+    only_meeting: bool,  # noqa: FBT001
+    output_format: str,
+    database: str | None,
+) -> None:
+    r"""Rank actuators by the share of the workspace that they can serve.
+
+    STUDY is a built-in study (see `actuator-select study list`) or a TOML file.
+
+    \b
+    Examples:
+        actuator-select rank cpr8
+        actuator-select rank cpr8 --require 80 --where "rated_power_w <= 100"
+        actuator-select rank my-robot.toml --set motion.speed_max_m_per_s=0.8 --format json
+
+    Actuators are ordered by verdict (meets, undecided, fails), feasible share, fewest checks not evaluated, smallest
+    worst utilisation (demand over limit). The exit status is 0 also when no actuator meets the requirement.
+    """
+    from actuator_select.database import open_catalogue
+    from actuator_select.selection import rank, selection_record
+    from actuator_select.study import load_study, parse_overrides
+
+    loaded = load_study(study, parse_overrides(overrides))
+    with open_catalogue(database) as catalogue:
+        console.say_all(catalogue.notices)
+        with console.progress("Evaluating") as progress:
+            selection = rank(loaded, catalogue, where=where, require=require, progress=progress)
+    if output_format == "json":
+        console.emit_json(selection_record(selection, only_meeting=only_meeting))
+    elif output_format == "csv":
+        _emit_csv(selection, only_meeting=only_meeting)
+    else:
+        print_ranking(selection, only_meeting=only_meeting)
+        if selection.study.name == study:
+            console.say(f"Next: actuator-select report {study} --output {study}.html")
+
+
+def shown(selection: "Selection", *, only_meeting: bool) -> "list[RankedActuator]":
+    """Actuators to show, best first."""
+    return [actuator for actuator in selection.ranked if not only_meeting or actuator.verdict.value == "meets"]
+
+
+def print_ranking(selection: "Selection", *, only_meeting: bool) -> None:
+    """Print what the percentage is of, the table, and the warnings."""
+    from actuator_select.selection.wording import check_cell, heading, share, verdict_word
+
+    for line in heading(selection):
+        click.echo(line)
+    actuators = shown(selection, only_meeting=only_meeting)
+    checks = list(selection.study.checks)
+    header = ["", "actuator", "verdict", "feasible", *(check.value for check in checks), "limited by"]
+    rows = []
+    for place, actuator in enumerate(actuators, start=1):
+        limiting = actuator.limiting_check
+        rows.append(
+            [
+                str(place),
+                actuator.name,
+                verdict_word(actuator),
+                share(actuator, selection.poses),
+                *(check_cell(actuator.checks[check], selection.poses) for check in checks),
+                limiting.value if limiting and actuator.feasible_poses < selection.poses else "–",
+            ]
+        )
+    if rows:
+        console.emit_table(header, rows, right=range(3, 4 + len(checks)))
+        click.echo(
+            "Each check: positions that this limit alone allows, worst demand / limit over the whole motion set."
+        )
+    meeting = sum(actuator.verdict.value == "meets" for actuator in selection.ranked)
+    click.echo(
+        f"{meeting} of {len(selection.ranked)} actuators {'meets' if meeting == 1 else 'meet'} the requirement of "
+        f"{selection.required_percent:g} %."
+    )
+    for warning in selection.warnings:
+        console.warn(warning.text)
+
+
+def _emit_csv(selection: "Selection", *, only_meeting: bool) -> None:
+    checks = list(selection.study.checks)
+    header = ["id", "name", "verdict", "feasible_percent", "feasible_poses", "poses"]
+    header += [f"{check.value}_{what}" for check in checks for what in ("state", "poses", "worst_utilisation")]
+    rows = []
+    for actuator in shown(selection, only_meeting=only_meeting):
+        row: list[object] = [
+            actuator.id,
+            actuator.name,
+            actuator.verdict.value,
+            round(actuator.feasible_percent, 2),
+            actuator.feasible_poses,
+            selection.poses,
+        ]
+        for check in checks:
+            verdict = actuator.checks[check]
+            row += [verdict.state.value, verdict.poses, verdict.worst_utilisation]
+        rows.append(row)
+    console.emit_csv(header, rows)

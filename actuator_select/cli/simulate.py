@@ -1,0 +1,131 @@
+"""``actuator-select simulate``."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from actuator_select.cli import console, options
+
+if TYPE_CHECKING:
+    from actuator_select.selection import Simulation
+
+
+class Vector(click.ParamType):
+    """Three numbers, separated by commas."""
+
+    name = "x,y,z"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> tuple[float, ...]:  # noqa: ANN401
+        """Read the numbers."""
+        if isinstance(value, tuple):
+            return value
+        try:
+            numbers = tuple(float(part) for part in str(value).split(","))
+        except ValueError:
+            numbers = ()
+        if len(numbers) != 3:  # noqa: PLR2004
+            self.fail(f"{value!r}, expected three numbers separated by commas, such as 0.153,0.153,-0.153", param, ctx)
+        return numbers
+
+
+@click.command("simulate")
+@click.argument("study", metavar="STUDY")
+@click.argument("actuator", metavar="ACTUATOR")
+@click.option("--from", "start", type=Vector(), required=True, help="Start of the line [m].")
+@click.option("--to", "stop", type=Vector(), required=True, help="End of the line [m].")
+@click.option(
+    "--orientation-rad",
+    "orientation",
+    type=Vector(),
+    default="0,0,0",
+    show_default=True,
+    help="Angles ψ, θ, φ of the platform, constant over the move [rad].",
+)
+@options.set_option
+@click.option(
+    "--plot",
+    type=click.Path(path_type=Path, dir_okay=False),
+    metavar="FILE",
+    help="Draw the histories with their limits, as .svg, .png or .pdf.",
+)
+@options.format_option("table", "json", "csv")
+@options.database_option
+def command(  # noqa: PLR0913, PLR0917 - one parameter per option
+    study: str,
+    actuator: str,
+    start: tuple[float, float, float],
+    stop: tuple[float, float, float],
+    orientation: tuple[float, float, float],
+    overrides: tuple[str, ...],
+    plot: Path | None,
+    output_format: str,
+    database: str | None,
+) -> None:
+    r"""Drive one actuator along a straight line and show its limits.
+
+    ACTUATOR is the id or the name of a catalogue actuator; every cable has one of it. The move starts and ends at
+    rest, with the study's greatest speed and ramp times; a short move keeps the accelerations and peaks below.
+
+    \b
+    Example (figure 6b of Filipović & Kevac 2018):
+        actuator-select simulate cpr8 "Actuator 1" --from 0.153,0.153,-0.153 --to 3.047,0.153,-0.153 \
+            --orientation-rad 0.5,0.5,0.5 --plot run.svg
+
+    CSV gives the histories, JSON the peaks and exceedances.
+    """
+    from actuator_select.database import open_catalogue
+    from actuator_select.selection import simulate
+    from actuator_select.selection.records import simulation_record
+    from actuator_select.study import load_study, parse_overrides
+
+    loaded = load_study(study, parse_overrides(overrides))
+    with open_catalogue(database) as catalogue:
+        console.say_all(catalogue.notices)
+        run = simulate(loaded, catalogue, actuator, start=start, stop=stop, orientation=orientation)
+    if plot is not None:
+        _write_plot(run, plot)
+    if output_format == "json":
+        console.emit_json(simulation_record(run))
+    elif output_format == "csv":
+        frame = run.frame()
+        console.emit_csv(list(frame.columns), frame.to_numpy().tolist())
+    else:
+        print_simulation(run)
+
+
+def _write_plot(run: "Simulation", plot: Path) -> None:
+    from actuator_select._resources import replace_atomically
+    from actuator_select.report.figures import IMAGE_FORMATS, image_bytes, simulation_figure
+
+    suffix = plot.suffix.lower().removeprefix(".")
+    if suffix not in IMAGE_FORMATS:
+        raise click.BadParameter(
+            f"{plot}: expected a name that ends in {', '.join(IMAGE_FORMATS)}", param_hint="--plot"
+        )
+    replace_atomically(plot, image_bytes(simulation_figure(run), suffix))
+    console.say(f"Wrote {plot}")
+
+
+def print_simulation(run: "Simulation") -> None:
+    """Print the peaks per actuator, what exceeds which limit when, and warnings."""
+    from actuator_select.model.actuation import Check
+    from actuator_select.selection.simulation import UNITS
+    from actuator_select.selection.wording import exceedance_words, move_words, pushing_words
+
+    click.echo(move_words(run))
+    header = ["cable", *(f"|{check.value}| [{UNITS[check]}]" for check in Check)]
+    rows = [
+        [str(cable + 1), *(f"{run.peaks[check][cable]:.5g}" for check in Check)]
+        for cable in range(run.study.robot.cables)
+    ]
+    rows.append(["limit", *(f"{run.limits[check]:.5g}" for check in Check)])
+    console.emit_table(header, rows, right=range(1, 5))
+    click.echo("Largest magnitudes at the shaft behind the gearbox (voltage at the motor's terminals).")
+    if run.exceedances:
+        for exceedance in run.exceedances:
+            click.echo(f"  {exceedance_words(exceedance)}")
+    else:
+        click.echo("Every limit that could be evaluated holds over the whole move.")
+    if run.pushing:
+        console.warn(pushing_words(run))
