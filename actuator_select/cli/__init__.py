@@ -91,7 +91,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def _run(arguments: Sequence[str] | None) -> int:
     try:
-        command.main(args=arguments, prog_name="actuator-select", standalone_mode=False)
+        typed = list(sys.argv[1:] if arguments is None else arguments)
+        command.main(args=typed, prog_name="actuator-select", standalone_mode=False, obj=typed)
     except click.exceptions.Exit as stop:
         return stop.exit_code
     except click.ClickException as error:

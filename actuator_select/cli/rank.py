@@ -28,7 +28,7 @@ def command(
     overrides: tuple[str, ...],
     where: str,
     require: float | None,
-    only_meeting: bool,  # noqa: FBT001
+    only_meeting: bool,
     output_format: str,
     database: str | None,
 ) -> None:

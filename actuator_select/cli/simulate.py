@@ -51,7 +51,7 @@ class Vector(click.ParamType):
 )
 @options.format_option("table", "json", "csv")
 @options.database_option
-def command(  # noqa: PLR0913, PLR0917 - one parameter per option
+def command(
     study: str,
     actuator: str,
     start: tuple[float, float, float],

@@ -44,7 +44,7 @@ def show(study: str, overrides: tuple[str, ...]) -> None:
 @command.command("new")
 @click.argument("file", type=click.Path(path_type=Path), metavar="FILE.toml")
 @click.option("--force", is_flag=True, help="Replace an existing file.")
-def new(file: Path, force: bool) -> None:  # noqa: FBT001
+def new(file: Path, force: bool) -> None:
     """Write a commented study file to start from.
 
     It describes a small four-cable camera robot with explicit anchors and works as it stands.

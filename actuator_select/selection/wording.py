@@ -38,7 +38,7 @@ def check_cell(verdict: CheckVerdict, total: int) -> str:
         return "not applicable"
     if verdict.poses is None or verdict.worst_utilisation is None:
         return f"not evaluated: {missing_words(verdict)} unknown"
-    return f"{verdict.poses}/{total}  ×{verdict.worst_utilisation:.2f}"
+    return f"{verdict.poses}/{total}  ×{verdict.worst_utilisation:.3f}"
 
 
 def missing_words(verdict: CheckVerdict) -> str:

@@ -1,0 +1,5 @@
+"""Design reports: results to figures and HTML. Nothing is computed here."""
+
+from actuator_select.report.html import ReportDetails, render_report
+
+__all__ = ["ReportDetails", "render_report"]

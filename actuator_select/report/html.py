@@ -1,0 +1,154 @@
+"""A selection as one self-contained HTML page."""
+
+import platform
+from collections.abc import Mapping
+from dataclasses import dataclass
+from datetime import datetime
+from importlib.metadata import version
+from typing import Any
+
+from jinja2 import Environment, PackageLoader, StrictUndefined
+from markupsafe import Markup
+from matplotlib.figure import Figure
+
+from actuator_select.database import Catalogue
+from actuator_select.model.ranking import State, Verdict
+from actuator_select.report.drive_figures import simulation_figure, torque_speed_plane
+from actuator_select.report.style import data_uri
+from actuator_select.report.workspace_figures import share_bars, slice_panels, workspace_panels
+from actuator_select.selection import RankedActuator, Selection, wording
+from actuator_select.selection.dossier import Dossier, build_dossier
+
+SHORTLIST = 3
+PLANES = 3  # actuators whose torque-speed plane and slices are drawn
+RANKED_ROWS = 100  # rows of the table; a longer ranking belongs in CSV
+LIBRARIES = ("numpy", "scipy", "sqlalchemy", "pandas", "matplotlib")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ReportDetails:
+    """What a report says about itself.
+
+    Attributes
+    ----------
+    generated_at : datetime
+        Printed as the report's date.
+    project, author, revision : str
+        Title block; left out where empty.
+    command : str
+        Command line that makes the report again.
+    """
+
+    generated_at: datetime
+    project: str = ""
+    author: str = ""
+    revision: str = ""
+    command: str = ""
+
+
+def render_report(selection: Selection, catalogue: Catalogue, details: ReportDetails) -> str:
+    """Render the design report.
+
+    Parameters
+    ----------
+    selection : Selection
+        The ranking to report.
+    catalogue : Catalogue
+        Where its actuators came from; names the sources.
+    details : ReportDetails
+        Title block, date and command.
+
+    Returns
+    -------
+    str
+        HTML without references to other files or to the network; everything that comes from the catalogue or the
+        study is escaped.
+
+    Examples
+    --------
+    >>> catalogue = open_catalogue()
+    >>> selection = rank(load_study("cpr8"), catalogue)
+    >>> page = render_report(selection, catalogue, ReportDetails(generated_at=datetime.now()))
+    """
+    dossier = build_dossier(selection, catalogue)
+    environment = Environment(
+        loader=PackageLoader("actuator_select.report"),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    environment.filters["figure"] = _figure_value
+    return environment.get_template("report.html").render(
+        dossier=dossier,
+        selection=selection,
+        study=selection.study,
+        details=details,
+        words=wording,
+        shortlist=shortlist(selection),
+        rows=selection.ranked[:RANKED_ROWS],
+        State=State,
+        Verdict=Verdict,
+        images=_images(dossier),
+        versions=_versions(),
+        sources=_sources(dossier),
+    )
+
+
+def shortlist(selection: Selection) -> tuple[RankedActuator, ...]:
+    """Actuators that meet the requirement; where none does, the best that there are."""
+    meeting = tuple(actuator for actuator in selection.ranked if actuator.verdict is Verdict.MEETS)
+    return (meeting or selection.ranked)[:SHORTLIST]
+
+
+def _images(dossier: Dossier) -> dict[str, Any]:
+    study = dossier.selection.study
+    leading = dossier.details[0]
+    panels = [
+        (f"{detail.actuator.name}: {wording.share(detail.actuator, dossier.selection.poses)}", detail.feasible)
+        for detail in dossier.details
+    ]
+    turned = [
+        (variant.title, variant.feasible)
+        for variant in dossier.variants
+        if len(variant.feasible) == len(study.positions)
+        and "orientations" in " ".join(variant_keys(dossier, variant.title))
+    ]
+    return {
+        "bars": _image(share_bars(dossier.selection, [detail.actuator for detail in dossier.details]), "svg"),
+        "workspaces": _image(workspace_panels(study, panels), "png"),
+        "variants": _image(workspace_panels(study, turned), "png") if turned else None,
+        "slices": [_image(slice_panels(study, detail), "svg") for detail in dossier.details[:PLANES] if detail.checks],
+        "planes": [_image(torque_speed_plane(detail), "svg") for detail in dossier.details[:PLANES]],
+        "moves": [_image(simulation_figure(run), "svg") for _, run in dossier.moves],
+        "leading": leading.actuator.name,
+    }
+
+
+def variant_keys(dossier: Dossier, title: str) -> list[str]:
+    """Keys that a variant changes."""
+    return [key for one in dossier.selection.study.table.variant if one.title == title for key in one.set]
+
+
+def _image(figure: Figure, image_format: str) -> Markup:
+    return Markup(data_uri(figure, image_format))  # noqa: S704 - base64 of our own picture
+
+
+def _versions() -> dict[str, str]:
+    return {
+        "actuator-select": version("actuator-select"),
+        "Python": platform.python_version(),
+        **{name: version(name) for name in LIBRARIES},
+    }
+
+
+def _sources(dossier: Dossier) -> list[Mapping[str, Any]]:
+    """Documents behind the parts, each once."""
+    return list({str(part.source["id"]): part.source for part in dossier.parts}.values())
+
+
+def _figure_value(value: object) -> str:
+    """A catalogue figure as people write it."""
+    if isinstance(value, float):
+        return "unlimited" if value == float("inf") else f"{value:.10g}"
+    return str(value)

@@ -1,0 +1,212 @@
+"""Pictures of the workspace: how much of it each actuator serves, where, and what stops it elsewhere."""
+
+from collections.abc import Sequence
+from textwrap import fill, shorten
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.colors import BoundaryNorm, ListedColormap, TwoSlopeNorm
+from matplotlib.figure import Figure
+from matplotlib.patches import Patch
+from mpl_toolkits.mplot3d.axes3d import Axes3D
+
+from actuator_select.model.arrays import BoolArray, FloatArray
+from actuator_select.report.style import BLUE, CHECK_COLOURS, GREY, RED, house_style, new_figure
+from actuator_select.selection import RankedActuator, Selection
+from actuator_select.selection.dossier import ActuatorDetail
+from actuator_select.study import Study
+
+PANELS_PER_ROW = 3
+TITLE_WIDTH = 40  # characters of a panel's title in one line
+NAME_WIDTH = 40  # characters of an actuator's name beside its bar
+LEVELS = 4  # slices of one actuator
+UTILISATION_SHOWN = 2.0  # colours saturate there
+
+
+@house_style
+def share_bars(selection: Selection, actuators: Sequence[RankedActuator]) -> Figure:
+    """Feasible share of every actuator beside the requirement, as figure 9 of Filipović & Kevac 2018."""
+    figure = new_figure(7.2, 0.9 + 0.34 * len(actuators))
+    axes = figure.subplots()
+    names = [actuator.name for actuator in actuators]
+    shares = [actuator.feasible_percent for actuator in actuators]
+    colours = {"meets": BLUE, "undecided": "#9DB9CE", "fails": GREY}
+    rows = np.arange(len(actuators))
+    axes.barh(rows, shares, color=[colours[actuator.verdict.value] for actuator in actuators], height=0.65)
+    for row, actuator in enumerate(actuators):
+        axes.text(
+            actuator.feasible_percent + 1.0,
+            row,
+            f"{actuator.feasible_poses}/{selection.poses} ({actuator.feasible_percent:.1f} %)",
+            va="center",
+            fontsize=8,
+        )
+    axes.axvline(selection.required_percent, color=RED, linestyle="--", linewidth=1.2)
+    axes.text(
+        selection.required_percent,
+        -0.75,
+        f"required {selection.required_percent:g} %",
+        color=RED,
+        ha="center",
+        va="bottom",
+        fontsize=8,
+    )
+    axes.set_yticks(rows, [shorten(name, NAME_WIDTH, placeholder="…") for name in names])
+    axes.set_xlim(0.0, 118.0)
+    axes.set_xticks(range(0, 101, 20))
+    axes.set_ylim(len(actuators) - 0.4, -0.8)
+    axes.set_xlabel("feasible share of the workspace [%]")
+    return figure
+
+
+@house_style
+def workspace_panels(study: Study, panels: Sequence[tuple[str, BoolArray]]) -> Figure:
+    """Feasible and infeasible positions in 3-D, one panel each, as figures 4, 5 and 8 of Filipović & Kevac 2018.
+
+    Parameters
+    ----------
+    study : Study
+        Positions, frame anchors and region.
+    panels : sequence of (str, (P,) array of bool)
+        Title, and where the panel's actuator serves.
+
+    Returns
+    -------
+    Figure
+        Up to three panels in a row.
+    """
+    columns = min(PANELS_PER_ROW, len(panels))
+    rows = -(-len(panels) // columns)
+    figure = new_figure(2.9 * columns, 2.75 * rows + 0.3)
+    for index, (title, feasible) in enumerate(panels, start=1):
+        axes = figure.add_subplot(rows, columns, index, projection="3d")
+        if not isinstance(axes, Axes3D):  # pragma: no cover - matplotlib returns what was asked for
+            raise TypeError(type(axes))
+        _workspace(axes, study, feasible)
+        axes.set_title(fill(title, TITLE_WIDTH), fontsize=8.5)
+    figure.legend(
+        handles=[
+            Patch(color=BLUE, label="served"),
+            Patch(facecolor="none", edgecolor=RED, label="not served (small crosses)"),
+            Patch(color="black", label="frame anchors (triangles)"),
+        ],
+        loc="outside lower center",
+        ncols=3,
+    )
+    return figure
+
+
+def _workspace(axes: Axes3D, study: Study, feasible: BoolArray) -> None:
+    positions = study.positions
+    size = float(np.clip(3000.0 / len(positions), 1.0, 18.0))
+    served, missed = positions[feasible], positions[~feasible]
+    axes.scatter(*missed.T, marker="x", s=0.6 * size, color=RED, linewidths=0.6, depthshade=False, rasterized=True)
+    axes.scatter(
+        *served.T, marker="o", s=size, color=BLUE, alpha=0.75, linewidths=0.0, depthshade=False, rasterized=True
+    )
+    axes.scatter(*study.robot.frame_anchors.T, marker="^", s=12, color="black", depthshade=False)
+    _box(axes, study.region)
+    axes.set_xlabel("x [m]", labelpad=-4)
+    axes.set_ylabel("y [m]", labelpad=-4)
+    axes.set_zlabel("z [m]", labelpad=-5)
+    axes.tick_params(labelsize=6.5, pad=-2)
+    axes.set_box_aspect(np.maximum(np.ptp(np.vstack([positions, study.robot.frame_anchors]), axis=0), 1e-3), zoom=0.86)
+    axes.view_init(elev=22.0, azim=-58.0)
+
+
+def _box(axes: Axes3D, region: FloatArray) -> None:
+    corners = np.array(np.meshgrid(*region, indexing="ij")).reshape(3, -1).T
+    for first in range(8):
+        for second in range(first + 1, 8):
+            if (first ^ second).bit_count() == 1:
+                axes.plot(*np.vstack([corners[first], corners[second]]).T, color=GREY, linewidth=0.6)
+
+
+@house_style
+def slice_panels(study: Study, detail: ActuatorDetail) -> Figure:
+    """Slices through the workspace: above, what is closest to its limit; below, how close.
+
+    Parameters
+    ----------
+    study : Study
+        The grid.
+    detail : ActuatorDetail
+        One actuator.
+
+    Returns
+    -------
+    Figure
+        Two rows, one column per slice.
+    """
+    axis, levels = _sliced(study)
+    first, second = (other for other in range(3) if other != axis)
+    grid = study.table.workspace.points
+    utilisation = np.take(detail.utilisation.reshape(grid), levels, axis=axis)
+    critical = np.take(detail.critical.reshape(grid), levels, axis=axis)
+    heights = np.linspace(*study.region[axis], grid[axis]) if grid[axis] > 1 else [study.region[axis].mean()]
+    edges = [_edges(study.region[other], grid[other]) for other in (first, second)]
+    width, height = (float(edge[-1] - edge[0]) for edge in edges)
+    panel = 1.7 * np.clip(height / width, 0.4, 1.6)
+    figure = new_figure(1.65 * len(levels) + 0.9, 2.0 * panel + 1.2)
+    panels = figure.subplots(2, len(levels), squeeze=False, sharex=True, sharey=True)
+    colours = [CHECK_COLOURS[check] for check in detail.checks]
+    norm = TwoSlopeNorm(vcenter=1.0, vmin=0.0, vmax=UTILISATION_SHOWN)
+    shaded = None
+    for column, level in enumerate(levels):
+        values = np.take(utilisation, column, axis=axis)
+        which = np.take(critical, column, axis=axis)
+        upper, lower = panels[0, column], panels[1, column]
+        upper.pcolormesh(
+            *edges,
+            which.T,
+            cmap=ListedColormap(colours),
+            norm=BoundaryNorm(np.arange(len(colours) + 1) - 0.5, len(colours)),
+        )
+        _cross_out(upper, edges, values)
+        shaded = lower.pcolormesh(*edges, values.T, cmap="RdYlBu_r", norm=norm)
+        _cross_out(lower, edges, values)
+        upper.set_title(f"{'xyz'[axis]} = {heights[level]:.2f} m", fontsize=8.5)
+        lower.set_xlabel(f"{'xyz'[first]} [m]")
+        for one in (upper, lower):
+            one.set_aspect("equal")
+            one.tick_params(labelsize=7)
+    for row in range(2):
+        panels[row, 0].set_ylabel(f"{'xyz'[second]} [m]")
+    if shaded is not None:
+        bar = figure.colorbar(shaded, ax=list(panels[1]), extend="max", shrink=0.9, pad=0.01)
+        bar.set_label("demand / limit", fontsize=8)
+        bar.ax.tick_params(labelsize=7)
+    figure.legend(
+        handles=[Patch(color=CHECK_COLOURS[check], label=f"{check.value} is closest") for check in detail.checks]
+        + [Patch(facecolor="white", edgecolor="black", label="×  not served")],
+        loc="outside lower center",
+        ncols=len(detail.checks) + 1,
+    )
+    return figure
+
+
+def _sliced(study: Study) -> tuple[int, list[int]]:
+    """Axis that is cut, and the grid levels shown: a planar grid across its plane, others at several heights."""
+    points = study.table.workspace.points
+    planar = [axis for axis in range(3) if points[axis] == 1]
+    axis = planar[-1] if planar else 2
+    count = min(LEVELS, points[axis])
+    return axis, sorted({round(level) for level in np.linspace(0, points[axis] - 1, count)})
+
+
+def _edges(interval: FloatArray, points: int) -> FloatArray:
+    """Cell edges around the grid points of one axis."""
+    low, high = interval
+    if points == 1:
+        return np.array([low, high]) if high > low else np.array([low - 0.05, low + 0.05])
+    half = (high - low) / (points - 1) / 2.0
+    return np.linspace(low - half, high + half, points + 1)
+
+
+def _cross_out(axes: Axes, edges: Sequence[FloatArray], values: FloatArray) -> None:
+    """Mark the cells over a limit, so that they show without colours."""
+    centres = [(edge[:-1] + edge[1:]) / 2.0 for edge in edges]
+    x, y = np.meshgrid(*centres, indexing="ij")
+    over = values > 1.0
+    size = float(np.clip(400.0 / max(values.size, 1), 1.0, 16.0))
+    axes.scatter(x[over], y[over], marker="x", s=size, color="black", linewidths=0.6)

@@ -1,0 +1,308 @@
+"""All that a report shows beyond the ranking: where and why actuators fail, variants, moves, parts and sources."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from math import ceil
+from typing import Any
+
+import numpy as np
+
+from actuator_select.database import Catalogue
+from actuator_select.model.actuation import Check
+from actuator_select.model.arrays import BoolArray, FloatArray, IntArray
+from actuator_select.model.components import ActuatorSet
+from actuator_select.model.drive_cloud import DriveCloud, drive_cloud
+from actuator_select.model.evaluation import ROUNDING, position_utilisation
+from actuator_select.model.ranking import PERCENT_TOLERANCE, Verdict
+from actuator_select.selection.candidates import Candidates
+from actuator_select.selection.plausibility import Finding, check_rows
+from actuator_select.selection.selection import (
+    RankedActuator,
+    Selection,
+    evaluate_candidates,
+    rank_result,
+)
+from actuator_select.selection.simulation import Simulation, simulate_candidate
+from actuator_select.study import Study, parse_study
+from actuator_select.units import rpm
+
+DETAILED = 6  # actuators that get pictures
+CLOUD_POINTS = 5000
+PART_KINDS = {"motor": "motors", "gearbox": "gearboxes", "winch": "winches"}
+
+# The motor figure that each limit is made of, its unit, and how it is read off the model.
+LIMIT_FIGURES: dict[Check, tuple[str, str]] = {
+    Check.SPEED: ("rated speed", "rpm"),
+    Check.TORQUE: ("rated torque", "N m"),
+    Check.ACCELERATION: ("rated torque at this rotor inertia", "N m"),
+    Check.VOLTAGE: ("nominal voltage", "V"),
+}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Need:
+    """What one limit would have to be for the required share of the positions, the other limits apart.
+
+    Attributes
+    ----------
+    check : Check
+        The limit.
+    poses : int
+        Positions that it allows now.
+    figure, unit : str
+        The motor figure behind it.
+    stated, needed : float
+        That figure now, and the least that would do.
+    """
+
+    check: Check
+    poses: int
+    figure: str
+    unit: str
+    stated: float
+    needed: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ActuatorDetail:
+    """Where one actuator stands at each of P positions.
+
+    Attributes
+    ----------
+    actuator : RankedActuator
+        Its place in the ranking.
+    utilisation : (P,) array
+        Largest demand over limit of all evaluated checks.
+    critical : (P,) array
+        Index into `checks` of the check that gives it.
+    checks : tuple of Check
+        The evaluated checks.
+    feasible : (P,) array of bool
+        Where every evaluated check holds.
+    cloud : DriveCloud
+        Operating points at the motor.
+    figures : ActuatorSet
+        The actuator itself.
+    """
+
+    actuator: RankedActuator
+    utilisation: FloatArray
+    critical: IntArray
+    checks: tuple[Check, ...]
+    feasible: BoolArray
+    cloud: DriveCloud
+    figures: ActuatorSet
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Variant:
+    """The study with some keys changed.
+
+    Attributes
+    ----------
+    title : str
+        Of the variant.
+    selection : Selection
+        Its ranking.
+    feasible : (P,) array of bool
+        Where the study's best actuator serves in this variant.
+    """
+
+    title: str
+    selection: Selection
+    feasible: BoolArray
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Part:
+    """One catalogue row that the ranking used.
+
+    Attributes
+    ----------
+    kind, id : str
+        The row.
+    figures : mapping of str to object
+        Its known columns.
+    source : mapping of str to object
+        The document that states them.
+    findings : tuple of Finding
+        Its plausibility findings.
+    """
+
+    kind: str
+    id: str
+    figures: Mapping[str, Any]
+    source: Mapping[str, Any]
+    findings: tuple[Finding, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Dossier:
+    """A selection and everything that explains it.
+
+    Attributes
+    ----------
+    selection : Selection
+        The ranking.
+    details : tuple of ActuatorDetail
+        The best actuators, best first.
+    needs : tuple of (RankedActuator, tuple of Need)
+        For every detailed actuator that fails: the limits that keep it from the requirement.
+    variants : tuple of Variant
+        In the study's order.
+    moves : tuple of (str, Simulation)
+        Titles and simulations of the study's moves with the best actuator.
+    parts : tuple of Part
+        Catalogue rows behind the ranked actuators.
+    """
+
+    selection: Selection
+    details: tuple[ActuatorDetail, ...]
+    needs: tuple[tuple[RankedActuator, tuple[Need, ...]], ...]
+    variants: tuple[Variant, ...]
+    moves: tuple[tuple[str, Simulation], ...]
+    parts: tuple[Part, ...]
+
+    @property
+    def findings(self) -> tuple[Finding, ...]:
+        """Plausibility findings of all parts."""
+        return tuple(finding for part in self.parts for finding in part.findings)
+
+
+def build_dossier(selection: Selection, catalogue: Catalogue) -> Dossier:
+    """Work out what explains a ranking.
+
+    Parameters
+    ----------
+    selection : Selection
+        The ranking.
+    catalogue : Catalogue
+        Where its actuators came from.
+
+    Returns
+    -------
+    Dossier
+        For the best `DETAILED` actuators.
+    """
+    best = selection.ranked[:DETAILED]
+    return Dossier(
+        selection=selection,
+        details=tuple(_detail(selection, actuator) for actuator in best),
+        needs=tuple((actuator, _needs(selection, actuator)) for actuator in best if actuator.verdict is Verdict.FAILS),
+        variants=_variants(selection),
+        moves=_moves(selection),
+        parts=_parts(selection, best, catalogue),
+    )
+
+
+def feasible_positions(selection: Selection, index: int) -> BoolArray:
+    """Where every evaluated check of one candidate holds, (P,)."""
+    utilisation, _, _ = _worst(selection, index)
+    feasible: BoolArray = utilisation <= 1.0 + ROUNDING
+    return feasible
+
+
+def _worst(selection: Selection, index: int) -> tuple[FloatArray, IntArray, tuple[Check, ...]]:
+    """Largest utilisation at every position, which check gives it, and the evaluated checks."""
+    evaluation = selection.result.evaluation
+    checks = tuple(check for check, count in evaluation.checks.items() if count.evaluated[index])
+    if not checks:
+        return np.zeros(selection.poses), np.full(selection.poses, -1, dtype=np.int64), ()
+    values = position_utilisation(evaluation.demand, evaluation.actuators.take([index]), checks)
+    stacked = np.stack([values[check][0] for check in checks])
+    return stacked.max(axis=0), stacked.argmax(axis=0), checks
+
+
+def _detail(selection: Selection, actuator: RankedActuator) -> ActuatorDetail:
+    utilisation, critical, checks = _worst(selection, actuator.index)
+    evaluation = selection.result.evaluation
+    figures = evaluation.actuators.take([actuator.index])
+    return ActuatorDetail(
+        actuator=actuator,
+        utilisation=utilisation,
+        critical=critical,
+        checks=checks,
+        feasible=utilisation <= 1.0 + ROUNDING,
+        cloud=drive_cloud(evaluation.demand, figures, CLOUD_POINTS),
+        figures=figures,
+    )
+
+
+def _needs(selection: Selection, actuator: RankedActuator) -> tuple[Need, ...]:
+    evaluation = selection.result.evaluation
+    figures = evaluation.actuators.take([actuator.index])
+    enough = max(1, ceil(selection.poses * selection.required_percent / 100.0 - PERCENT_TOLERANCE))
+    motor = {
+        Check.SPEED: rpm(float(figures.motor_speed[0])),
+        Check.TORQUE: float(figures.motor_torque[0]),
+        Check.ACCELERATION: float(figures.motor_torque[0]),
+        Check.VOLTAGE: float(figures.voltage[0]),
+    }
+    needs = []
+    for check, verdict in actuator.checks.items():
+        if verdict.poses is None or verdict.poses >= enough:
+            continue
+        utilisation = np.sort(position_utilisation(evaluation.demand, figures, [check])[check][0])
+        # Every limit is proportional to its figure, so the utilisation to be reached scales it.
+        figure, unit = LIMIT_FIGURES[check]
+        needs.append(
+            Need(
+                check=check,
+                poses=verdict.poses,
+                figure=figure,
+                unit=unit,
+                stated=motor[check],
+                needed=motor[check] * float(utilisation[enough - 1]),
+            )
+        )
+    return tuple(needs)
+
+
+def _variants(selection: Selection) -> tuple[Variant, ...]:
+    study = selection.study
+    variants = []
+    for one in study.table.variant:
+        changed = parse_study(study.text, place=f"{study.name}, variant {one.title!r}", overrides=one.set)
+        ranked = rank_result(
+            evaluate_candidates(changed, selection.result.candidates),
+            require=selection.required_percent,
+            fingerprint=selection.fingerprint,
+        )
+        variants.append(
+            Variant(title=one.title, selection=ranked, feasible=feasible_positions(ranked, selection.ranked[0].index))
+        )
+    return tuple(variants)
+
+
+def _moves(selection: Selection) -> tuple[tuple[str, Simulation], ...]:
+    best = selection.ranked[0].index
+    candidates = selection.result.candidates
+    single = Candidates(rows=(candidates.rows[best],), actuators=candidates.actuators.take([best]))
+    study: Study = selection.study
+    return tuple(
+        (one.title, simulate_candidate(study, single, one.from_m, one.to_m, one.orientation_rad))
+        for one in study.table.move
+    )
+
+
+def _parts(selection: Selection, actuators: tuple[RankedActuator, ...], catalogue: Catalogue) -> tuple[Part, ...]:
+    parts: dict[tuple[str, str], Part] = {}
+    for actuator in actuators:
+        row = selection.result.candidates.rows[actuator.index]
+        own = {name: value for name, value in row.items() if "." not in name}
+        rows = [("actuators", own)]
+        for role, kind in PART_KINDS.items():
+            if row.get(f"{role}_id") is not None:
+                joined = {name.split(".", 1)[1]: value for name, value in row.items() if name.startswith(f"{role}.")}
+                rows.append((kind, {"id": row[f"{role}_id"], **joined}))
+        for kind, figures in rows:
+            key = (kind, str(figures["id"]))
+            if key not in parts:
+                parts[key] = Part(
+                    kind=kind,
+                    id=key[1],
+                    figures={name: value for name, value in figures.items() if value is not None},
+                    source=catalogue.source(str(figures["source_id"])),
+                    findings=tuple(check_rows(kind, [figures])),
+                )
+    return tuple(parts.values())

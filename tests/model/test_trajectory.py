@@ -1,0 +1,134 @@
+"""Straight moves: the speed profile, and what it asks of a drive."""
+
+import numpy as np
+import pytest
+
+from actuator_select.model.components import ActuatorSet
+from actuator_select.model.dynamics import required_wrench
+from actuator_select.model.robot import cpr8
+from actuator_select.model.trajectory import (
+    DriveHistory,
+    LineMove,
+    TrapezoidalProfile,
+    drive_history,
+    instants,
+    trapezoidal_profile,
+)
+
+ROBOT = cpr8(np.array([3.2, 2.2, 2.2]), np.array([0.224, 0.154, 0.140]))
+WRENCH = required_wrench(2.0, 9.81)
+
+
+def actuator(**changed: float) -> ActuatorSet:
+    figures = {
+        "motor_speed": 500.0,
+        "motor_torque": 0.6,
+        "voltage": 48.0,
+        "back_emf_constant": 0.095,
+        "torque_constant": 0.095,
+        "resistance": 0.369,
+        "friction": 0.0,
+        "rotor_inertia": 3.579e-4,
+        "ratio": 30.0,
+        "efficiency": 0.6,
+        "drum_radius": 0.08,
+    }
+    return ActuatorSet.from_figures([figures | changed])
+
+
+def line_move(profile: TrapezoidalProfile | None = None) -> LineMove:
+    start, stop = np.array([0.3, 0.4, -1.8]), np.array([2.6, 1.5, -0.4])
+    return LineMove(
+        start=start,
+        stop=stop,
+        orientation=np.array([0.2, -0.1, 0.3]),
+        profile=profile or trapezoidal_profile(float(np.linalg.norm(stop - start)), 1.3, 0.8, 1.1),
+        centripetal=True,
+    )
+
+
+def history(drive: ActuatorSet, per_phase: int = 401) -> tuple[LineMove, DriveHistory]:
+    move = line_move()
+    return move, drive_history(ROBOT, WRENCH, move, drive, *instants(move.profile, per_phase))
+
+
+def test_a_long_move_cruises_at_the_greatest_speed() -> None:
+    profile = trapezoidal_profile(3.0, 1.5, 0.5, 1.0)
+    assert profile.speed == 1.5
+    assert profile.corners.tolist() == pytest.approx([0.0, 0.5, 1.75, 2.75])
+
+
+def test_a_short_move_is_a_triangle_that_keeps_the_accelerations() -> None:
+    profile = trapezoidal_profile(0.1, 1.5, 0.5, 1.0)
+    assert (profile.acceleration, profile.deceleration) == (3.0, 1.5)
+    assert profile.speed < 1.5
+    start, ramp, brake, stop = profile.corners
+    assert ramp == pytest.approx(brake)
+    assert profile.speed * (stop - start) / 2.0 == pytest.approx(0.1)
+
+
+@pytest.mark.parametrize("distance", [0.1, 0.8, 5.0])
+def test_way_and_speed_are_continuous_over_the_corners_and_cover_the_distance(distance: float) -> None:
+    profile = trapezoidal_profile(distance, 1.3, 0.7, 0.4)
+    corners = profile.corners
+    for phase in (0, 1):
+        here = profile.motion(corners[phase + 1 : phase + 2], phase)
+        there = profile.motion(corners[phase + 1 : phase + 2], phase + 1)
+        assert here[0] == pytest.approx(there[0])
+        assert here[1] == pytest.approx(there[1])
+    way, speed, _ = profile.motion(corners[3:], 2)
+    assert way[0] == pytest.approx(distance)
+    assert speed[0] == pytest.approx(0.0, abs=1e-12)
+
+
+def test_derivatives_are_exact() -> None:
+    _, run = history(actuator(), per_phase=20001)
+    for phase in range(3):
+        inside = run.phases == phase
+        step = np.diff(run.times[inside])[0]
+        speed = run.speed[inside]
+        differenced = (speed[2:] - speed[:-2]) / (2.0 * step)
+        assert differenced == pytest.approx(run.acceleration[inside][1:-1], abs=1e-5)
+
+
+def test_every_corner_is_looked_at_from_both_sides() -> None:
+    move, run = history(actuator())
+    for corner in move.profile.corners[1:3]:
+        at = np.flatnonzero(run.times == corner)
+        assert len(at) == 2
+        assert not np.allclose(run.acceleration[at[0]], run.acceleration[at[1]], rtol=0.01)
+
+
+def test_power_is_equal_on_both_sides_of_a_lossless_drive() -> None:
+    # Without friction, inertia and losses the motor's back-EMF power is the shaft's mechanical power.
+    drive = actuator(efficiency=1.0, rotor_inertia=0.0)
+    _, run = history(drive)
+    current = run.torque / (0.095 * 30.0)
+    electrical = run.voltage * current - 0.369 * current**2
+    assert electrical == pytest.approx(run.torque * run.speed, rel=1e-9, abs=1e-12)
+    # And over all cables it is the power of gravity and inertia on the load.
+    assert np.isfinite(run.voltage).all()
+
+
+def test_tensions_do_the_work_that_the_load_receives() -> None:
+    move, run = history(actuator())
+    way, speed, acceleration = (np.empty_like(run.times) for _ in range(3))
+    for phase in range(3):
+        inside = run.phases == phase
+        way[inside], speed[inside], acceleration[inside] = move.profile.motion(run.times[inside], phase)
+    line = (move.stop - move.start) / move.profile.distance
+    cable_power = (run.tension * run.speed * 0.08).sum(axis=1)
+    load_power = 2.0 * speed * (acceleration + 9.81 * line[2])
+    assert cable_power == pytest.approx(load_power, abs=1e-9)
+
+
+def test_without_the_centripetal_term_only_accelerations_and_voltages_change() -> None:
+    move, run = history(actuator())
+    flat = LineMove(
+        start=move.start, stop=move.stop, orientation=move.orientation, profile=move.profile, centripetal=False
+    )
+    other = drive_history(ROBOT, WRENCH, flat, actuator(), run.times, run.phases)
+    assert np.array_equal(other.torque, run.torque)
+    assert np.array_equal(other.speed, run.speed)
+    assert (other.acceleration >= run.acceleration).all()
+    assert (other.acceleration > run.acceleration + 0.1).any()

@@ -1,0 +1,162 @@
+"""Study files: what is taken, what is refused, and how the refusal reads."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from actuator_select.errors import ActuatorSelectError, InvalidStudy, UnknownName
+from actuator_select.model.actuation import Check
+from actuator_select.study import builtin_studies, load_study, parse_overrides, parse_study, starter_text, study_text
+
+
+def test_the_case_study_is_the_papers() -> None:
+    study = load_study("cpr8")
+    assert study.positions.shape == (216, 3)
+    assert study.robot.cables == 8
+    assert study.checks == tuple(Check)
+    assert study.motion.acceleration_upper == pytest.approx(np.full(3, 1.3 / 1.82))
+    assert len(load_study("cpr8-published").motion.velocities) == 123
+
+
+@pytest.mark.parametrize("name", builtin_studies())
+def test_every_builtin_study_says_what_it_is(name: str) -> None:
+    study = load_study(name)
+    assert study.name == name
+    assert study.table.description
+
+
+def test_the_starter_study_works_as_it_stands() -> None:
+    study = parse_study(starter_text('my "robot"'), place="starter")
+    assert study.name == 'my "robot"'
+    assert study.robot.cables == 4
+
+
+@pytest.mark.parametrize(
+    ("key", "value", "expected"),
+    [
+        ("motion.speed_max_m_per_s", -1.0, "motion.speed_max_m_per_s: -1.0, expected more than 0 [m/s]"),
+        ("motion.acceleration_time_s", 0, "motion.acceleration_time_s: 0, expected more than 0 [s]"),
+        ("payload.mass_kg", float("nan"), "payload.mass_kg: NaN, expected a finite number [kg]"),
+        ("payload.mass_kg", float("inf"), "payload.mass_kg: Infinity, expected a finite number [kg]"),
+        ("payload.mass_kg", "2", 'payload.mass_kg: "2", expected a number [kg]'),
+        ("payload.mass_kg", True, "payload.mass_kg: true, expected a number [kg]"),
+        ("workspace.points", [0, 6, 6], "workspace.points[0]: 0, expected at least 1"),
+        ("workspace.points", [6, 6], "workspace.points[2]: is missing"),
+        ("workspace.points", [6.5, 6, 6], "workspace.points[0]: 6.5, expected a whole number"),
+        ("workspace.orientations_rad", [], "workspace.orientations_rad: [], expected at least 1 entries [rad]"),
+        ("workspace.box_m", [[1, 0], [0, 1], [0, 1]], "x runs from 1.0 to 0.0 m"),
+        ("robot.carrier_m", [3.0, 3.0, 3.0], "a carrier whose diagonal (5.196 m) fits into the frame"),
+        ("robot.builder", "cpr9", "robot.builder: \"cpr9\", expected one of 'cpr8'"),
+        ("checks.apply", ["speed", "power"], "checks.apply[1]: \"power\", expected one of 'speed'"),
+        ("checks.apply", ["speed", "speed"], "every check once"),
+        ("checks.apply", [], "checks.apply: [], expected at least 1"),
+        ("requirement.feasible_percent", 120, "requirement.feasible_percent: 120, expected at most 100 [per cent"),
+        ("motion.velocity_intervals", 6, 'expected set = "sampled" where velocity_intervals is given'),
+        ("motion.sped_max_m_per_s", 1.0, "did you mean 'speed_max_m_per_s'"),
+        ("gravity", 9.81, "did you mean 'gravity_m_per_s2'"),
+    ],
+)
+def test_a_bad_value_is_named_with_key_value_expectation_and_unit(key: str, value: object, expected: str) -> None:
+    with pytest.raises(InvalidStudy) as caught:
+        load_study("cpr8", {key: value})
+    assert expected in str(caught.value)
+
+
+def test_every_problem_is_reported_at_once() -> None:
+    with pytest.raises(InvalidStudy) as caught:
+        load_study("cpr8", {"payload.mass_kg": -1, "motion.deceleration_time_s": 0, "extra": 1})
+    assert len(caught.value.problems) == 3
+
+
+@pytest.mark.parametrize("key", ["name", "robot", "payload", "workspace", "motion"])
+def test_a_missing_key_is_named(key: str) -> None:
+    text = "\n".join(line for line in study_text("cpr8").splitlines() if not line.startswith(f"{key} ="))
+    if key != "name":
+        text = text.replace(f"[{key}]", "[candidates.unknown]")
+    with pytest.raises(InvalidStudy, match=f"{key}: is missing"):
+        parse_study(text, place="study")
+
+
+def test_an_unknown_study_is_refused_with_a_suggestion() -> None:
+    with pytest.raises(UnknownName, match="did you mean 'cpr8'"):
+        load_study("cpr9")
+
+
+def test_a_file_that_is_not_toml_is_refused_with_its_line(tmp_path: Path) -> None:
+    file = tmp_path / "broken.toml"
+    file.write_text('name = "x"\nrobot = [1,\n', encoding="utf-8")
+    with pytest.raises(InvalidStudy, match="not valid TOML"):
+        load_study(file)
+    file.write_bytes(b'name = "\xff"\n')
+    with pytest.raises(InvalidStudy, match="not UTF-8"):
+        load_study(file)
+
+
+def test_explicit_cables_need_a_box() -> None:
+    text = starter_text("robot").replace("box_m =", "# box_m =").replace('# region = "builder"', 'region = "builder"')
+    with pytest.raises(InvalidStudy, match="box_m"):
+        parse_study(text, place="robot")
+
+
+def test_a_box_replaces_the_builders_region() -> None:
+    study = load_study(
+        "cpr8", {"workspace.box_m": [[1.0, 2.0], [0.5, 0.5], [-1.0, -0.5]], "workspace.points": [2, 1, 3]}
+    )
+    assert study.positions.shape == (6, 3)
+    assert study.positions[:, 1].tolist() == [0.5] * 6
+
+
+def test_overrides_are_toml_values_and_bare_words() -> None:
+    assert parse_overrides(
+        ["workspace.points=[11, 11, 11]", "motion.speed_max_m_per_s=0.8", "motion.set=sampled", 'name="a b"']
+    ) == {
+        "workspace.points": [11, 11, 11],
+        "motion.speed_max_m_per_s": 0.8,
+        "motion.set": "sampled",
+        "name": "a b",
+    }
+
+
+@pytest.mark.parametrize("assignment", ["workspace.points", "=3", "a=", "a=[1", "a=1\nb=2", "a=two words"])
+def test_an_override_that_is_no_assignment_is_refused(assignment: str) -> None:
+    with pytest.raises(InvalidStudy, match="--set"):
+        parse_overrides([assignment])
+
+
+@pytest.mark.parametrize("key", ["name.first", "robot.cable[0].frame_anchor_m", "workspace.points[7]", "a..b", "a b"])
+def test_an_override_that_leads_nowhere_is_refused(key: str) -> None:
+    with pytest.raises(InvalidStudy):
+        load_study("cpr8", {key: 1})
+
+
+def test_an_override_reaches_into_lists() -> None:
+    study = load_study("cpr8", {"workspace.points[2]": 3, "move[0].title": "first"})
+    assert study.table.workspace.points == (6, 6, 3)
+    assert study.table.move[0].title == "first"
+
+
+def test_the_text_of_an_overridden_study_gives_the_same_study() -> None:
+    study = load_study("cpr8", {"payload.mass_kg": 3.5, "candidates.where": "ratio > 3"})
+    again = parse_study(study.text, place="again")
+    assert again.table == study.table
+    assert "# both ends included" in study.text
+
+
+@given(
+    key=st.sampled_from(["payload.mass_kg", "workspace.points", "motion.set", "tension", "move", "name", "new.key[3]"]),
+    value=st.recursive(
+        st.none() | st.booleans() | st.integers() | st.floats() | st.text(),
+        lambda inner: st.lists(inner, max_size=4) | st.dictionaries(st.text(max_size=5), inner, max_size=3),
+        max_leaves=5,
+    ).filter(lambda value: value is not None),
+)
+def test_any_value_anywhere_gives_a_study_or_a_clear_error(key: str, value: object) -> None:
+    try:
+        study = load_study("cpr8", {key: value})
+    except ActuatorSelectError as error:
+        assert str(error)  # noqa: PT017 - either outcome is right
+    else:
+        assert len(study.positions) > 0
