@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from actuator_select.selection import Simulation
 
 
-class Vector(click.ParamType):
+class Vector(click.ParamType[tuple[float, ...]]):
     """Three numbers, separated by commas."""
 
     name = "x,y,z"
@@ -96,7 +96,8 @@ def command(
 
 def _write_plot(run: "Simulation", plot: Path) -> None:
     from actuator_select._resources import replace_atomically
-    from actuator_select.report.figures import IMAGE_FORMATS, image_bytes, simulation_figure
+    from actuator_select.report.drive_figures import simulation_figure
+    from actuator_select.report.style import IMAGE_FORMATS, image_bytes
 
     suffix = plot.suffix.lower().removeprefix(".")
     if suffix not in IMAGE_FORMATS:

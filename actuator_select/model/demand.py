@@ -40,8 +40,10 @@ class Demand:
         At rest. [N]
     tension_per_acceleration : (Q, m, 3) array
         [kg]
+    rate_up, rate_down : (Q, m) array
+        Greatest cable speed winding in and winding out over the motion set. [m/s]
     speed : (Q, m) array
-        Worst cable speed over the motion set. [m/s]
+        The greater of the two. [m/s]
     force : (Q, m) array
         Worst magnitude of the tension over the motion set. [N]
     acceleration : (Q, m) array
@@ -60,6 +62,8 @@ class Demand:
     directions: FloatArray
     static_tension: FloatArray
     tension_per_acceleration: FloatArray
+    rate_up: FloatArray
+    rate_down: FloatArray
     speed: FloatArray
     force: FloatArray
     acceleration: FloatArray
@@ -144,7 +148,7 @@ def _chunk(
     centre, reach = motion.acceleration_centre, motion.acceleration_reach
     middle_force = tensions.static + tensions.per_acceleration @ centre
     force_reach = np.abs(tensions.per_acceleration) @ reach
-    highest_speed, least_centripetal, most_centripetal = _velocity_extremes(
+    rate_up, rate_down, least_centripetal, most_centripetal = _velocity_extremes(
         geometry.directions, geometry.lengths, motion
     )
     middle_acceleration = geometry.directions @ centre
@@ -156,7 +160,9 @@ def _chunk(
         "directions": geometry.directions,
         "static_tension": tensions.static,
         "tension_per_acceleration": tensions.per_acceleration,
-        "speed": highest_speed + undefined,
+        "rate_up": rate_up,
+        "rate_down": rate_down,
+        "speed": np.maximum(rate_up, rate_down) + undefined,
         "force": np.abs(middle_force) + force_reach + undefined,
         "least_tension": middle_force - force_reach,
         "acceleration": np.maximum(
@@ -171,16 +177,25 @@ def _chunk(
 
 def _velocity_extremes(
     directions: FloatArray, lengths: FloatArray, motion: MotionSet
-) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Greatest |u·v|, least and greatest centripetal term over the velocities, each (Q, m)."""
+) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
+    """Greatest u·v, greatest -u·v, least and greatest centripetal term over the velocities, each (Q, m)."""
+    nothing = np.zeros_like(lengths)
+    scale = centripetal_scale(lengths, motion)
     if motion.kind is MotionKind.INDEPENDENT:
         speed = motion.speed * np.linalg.norm(directions, axis=-1)
-        most = centripetal_scale(lengths, motion) * motion.speed**2
-        return speed, np.zeros_like(lengths), most
-    rates = directions @ motion.velocities.T  # (Q, m, S)
+        return speed, speed, nothing, scale * motion.speed**2
+    rates = cable_rates(directions, motion)
+    rate_up, rate_down = rates.max(axis=-1), -rates.min(axis=-1)
+    if not motion.centripetal:
+        return rate_up, rate_down, nothing, nothing
     across = (motion.velocities**2).sum(axis=1) - rates**2
-    scale = centripetal_scale(lengths, motion)
-    return np.abs(rates).max(axis=-1), scale * across.min(axis=-1), scale * across.max(axis=-1)
+    return rate_up, rate_down, scale * across.min(axis=-1), scale * across.max(axis=-1)
+
+
+def cable_rates(directions: FloatArray, motion: MotionSet) -> FloatArray:
+    """Cable speed u·v of every sampled velocity, (Q, m, S). [m/s]."""
+    rates: FloatArray = directions.reshape(-1, 3) @ motion.velocities.T
+    return rates.reshape(*directions.shape[:-1], -1)
 
 
 def centripetal_scale(lengths: FloatArray, motion: MotionSet) -> FloatArray:

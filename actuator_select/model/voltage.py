@@ -12,7 +12,7 @@ import numpy as np
 
 from actuator_select.model.actuation import VoltageLine
 from actuator_select.model.arrays import BoolArray, FloatArray, IntArray
-from actuator_select.model.demand import Demand, centripetal_scale
+from actuator_select.model.demand import Demand, cable_rates, centripetal_scale
 from actuator_select.model.motion import MotionKind
 
 CELLS_AT_ONCE = 1 << 17  # (actuator, position, cable, sample) cells in one chunk: its scratch stays in the cache
@@ -132,21 +132,18 @@ def voltage_demand(demand: Demand) -> VoltageDemand:
     undefined = np.where(demand.lengths > 0.0, 0.0, np.inf)
     force = demand.static_tension + demand.tension_per_acceleration @ centre + undefined
     scale = centripetal_scale(demand.lengths, motion)
-    if motion.kind is MotionKind.INDEPENDENT:
-        rate_up = rate_down = np.full_like(force, motion.speed)
-        sampled: tuple[FloatArray, FloatArray] | None = None
-    else:
-        rates = demand.directions @ motion.velocities.T
-        rate_up, rate_down = rates.max(axis=-1), -rates.min(axis=-1)
+    sampled: tuple[FloatArray, FloatArray] | None = None
+    if motion.kind is MotionKind.SAMPLED and motion.centripetal:
+        rates = cable_rates(demand.directions, motion)
         across = scale[..., None] * ((motion.velocities**2).sum(axis=1) - rates**2)
-        sampled = (demand.by_position(rates), demand.by_position(across)) if motion.centripetal else None
+        sampled = (demand.by_position(rates), demand.by_position(across))
     return VoltageDemand(
         force=demand.by_position(force),
         acceleration=demand.by_position(demand.directions @ centre),
         force_reach=demand.by_position(demand.tension_per_acceleration * reach),
         acceleration_reach=demand.by_position(demand.directions * reach),
-        rate_up=demand.by_position(rate_up),
-        rate_down=demand.by_position(rate_down),
+        rate_up=demand.by_position(demand.rate_up),
+        rate_down=demand.by_position(demand.rate_down),
         speed=motion.speed,
         inverse_length=demand.by_position(scale),
         rates=None if sampled is None else sampled[0],

@@ -1,5 +1,7 @@
 """Pictures of the drive: its torque-speed plane with what is asked of it, and its histories over a move."""
 
+from typing import Any
+
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -123,19 +125,13 @@ def simulation_figure(run: Simulation) -> Figure:
         _history(axes, run, check)
         axes.set_ylabel(f"{name}\n[{UNITS[check]}]")
     panels[-1].set_xlabel("time [s]")
-    cables = run.study.robot.cables
-    figure.legend(
-        handles=[
-            *(Line2D([], [], **_line(cable), label=f"actuator {cable + 1}") for cable in range(cables)),  # type: ignore[arg-type]
-            Line2D([], [], color="black", linestyle="--", linewidth=1.4, label="limit"),
-        ],
-        loc="outside lower center",
-        ncols=min(5, cables + 1),
-    )
+    curves = [Line2D([], [], **_line(cable), label=f"actuator {cable + 1}") for cable in range(run.study.robot.cables)]
+    limit = Line2D([], [], color="black", linestyle="--", linewidth=1.4, label="limit")
+    figure.legend(handles=[*curves, limit], loc="outside lower center", ncols=5)
     return figure
 
 
-def _line(cable: int) -> dict[str, object]:
+def _line(cable: int) -> dict[str, Any]:
     """Colour and dash of a cable's curve; every set of colours has a dash of its own."""
     count = len(CABLE_COLOURS)
     dashes = ("-", (0, (4, 1.5)), (0, (1, 1)), "-.")
@@ -147,7 +143,7 @@ def _history(axes: Axes, run: Simulation, check: Check) -> None:
     times, values = run.history.times, run.history.of(check)
     limit = run.limits[check]
     for cable in range(values.shape[1]):
-        axes.plot(times, values[:, cable], **_line(cable))  # type: ignore[arg-type]
+        axes.plot(times, values[:, cable], **_line(cable))
     if np.isfinite(limit):
         largest = np.nanmax(np.abs(values), initial=0.0)
         # A limit far above everything would flatten the curves: say it instead.

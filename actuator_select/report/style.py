@@ -2,6 +2,7 @@
 
 import base64
 import io
+from typing import Any
 
 from matplotlib import rc_context
 from matplotlib.figure import Figure
@@ -25,7 +26,7 @@ BLUE, ORANGE, GREEN, RED, SKY, YELLOW, PURPLE, GREY = (
 CABLE_COLOURS = (BLUE, ORANGE, GREEN, PURPLE)  # with four dashes, see `drive_figures`
 CHECK_COLOURS = {Check.SPEED: SKY, Check.TORQUE: ORANGE, Check.ACCELERATION: PURPLE, Check.VOLTAGE: RED}
 
-STYLE = {
+STYLE: dict[Any, Any] = {
     "font.family": "DejaVu Sans",
     "font.size": 9.0,
     "xtick.labelsize": 8.0,

@@ -143,7 +143,7 @@ def slice_panels(study: Study, detail: ActuatorDetail) -> Figure:
     grid = study.table.workspace.points
     utilisation = np.take(detail.utilisation.reshape(grid), levels, axis=axis)
     critical = np.take(detail.critical.reshape(grid), levels, axis=axis)
-    heights = np.linspace(*study.region[axis], grid[axis]) if grid[axis] > 1 else [study.region[axis].mean()]
+    heights = np.unique(study.positions[:, axis])
     edges = [_edges(study.region[other], grid[other]) for other in (first, second)]
     width, height = (float(edge[-1] - edge[0]) for edge in edges)
     panel = 1.7 * np.clip(height / width, 0.4, 1.6)

@@ -85,7 +85,7 @@ class Rule:
 def _loaded_speed(row: Row) -> float:
     current = row["rated_torque_nm"] / row["torque_constant_nm_per_a"]
     voltage = row["nominal_voltage_v"] - row["terminal_resistance_ohm"] * current
-    return rpm(max(0.0, voltage) / row["back_emf_constant_v_s_per_rad"])
+    return rpm(max(0.0, float(voltage)) / float(row["back_emf_constant_v_s_per_rad"]))
 
 
 def _stall_torque(row: Row) -> float:

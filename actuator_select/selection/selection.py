@@ -351,7 +351,7 @@ def demand_warnings(demand: Demand) -> tuple[Warned, ...]:
         ),
         (
             "zero_length_cable",
-            (demand.lengths <= 0.0).any(axis=1),
+            np.any(demand.lengths <= 0.0, axis=1),
             "a cable has no length and so no direction; such positions count as not served",
         ),
     )
