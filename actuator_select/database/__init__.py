@@ -1,0 +1,16 @@
+"""The catalogue: tables, migrations, shipped rows, CSV files and queries. It knows nothing of physics."""
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from actuator_select.database.catalogue import Catalogue, ImportReport, open_catalogue
+
+__all__ = ["Catalogue", "ImportReport", "open_catalogue"]
+
+
+def __getattr__(name: str) -> Any:  # noqa: ANN401 - any public name
+    """Import SQLAlchemy only when the catalogue is used."""
+    if name not in __all__:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(import_module(f"{__name__}.catalogue"), name)

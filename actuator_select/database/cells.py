@@ -1,0 +1,205 @@
+"""Single values: from what somebody wrote to what the database holds, and back."""
+
+import re
+from collections.abc import Mapping
+from math import inf, isinf, isnan
+from numbers import Real
+from typing import TypeAlias
+
+from actuator_select.database.fields import Field, Kind
+from actuator_select.errors import Problem
+
+UNLIMITED = "unlimited"
+
+Value: TypeAlias = float | int | str | None
+"""None is unknown, an infinite float unlimited."""
+
+_DECIMAL_COMMA = re.compile(r"[+-]?\d+,\d+([eE][+-]?\d+)?")
+_WHOLE = re.compile(r"[+-]?\d{1,18}")
+_NUMBER = re.compile(r"[+-]?(\d+(\.\d*)?|\.\d+)([eE][+-]?\d+)?")
+_QUANTITY = re.compile(r"\s*([+-]?[\d.]+(?:[eE][+-]?\d+)?)\s*[^\d\s.,].*")
+_NO_TEXT = re.compile("[\x00\ud800-\udfff]")
+_TOO_LARGE = "this is more than a number can hold"
+_QUOTED_LENGTH = 60  # characters of a value that a message repeats
+
+
+class Refused(ValueError):
+    """A value that a field does not take; caught where its place is known.
+
+    Attributes
+    ----------
+    expected : str
+        What may stand there.
+    remedy : str
+        What to do; may be empty.
+    """
+
+    def __init__(self, expected: str, remedy: str = "") -> None:
+        self.expected = expected
+        self.remedy = remedy
+        super().__init__(expected)
+
+    def at(self, place: str, value: object) -> Problem:
+        """Say where it stands."""
+        return Problem(place=place, value=quoted(value), expected=self.expected, remedy=self.remedy)
+
+
+def quoted(value: object) -> str:
+    """Repeat a value in a message, shortened and without line breaks."""
+    if value is None or value == "":
+        return "empty"
+    text = ascii_controls(str(value))
+    return f"'{text[:_QUOTED_LENGTH]}…'" if len(text) > _QUOTED_LENGTH else f"'{text}'"
+
+
+def ascii_controls(text: str) -> str:
+    """Replace control characters, which would garble a terminal, by their escapes."""
+    return "".join(char if char.isprintable() else ascii(char)[1:-1] for char in text)
+
+
+def read_value(field: Field, value: object) -> Value:
+    """Check one value, or read it from its text.
+
+    Parameters
+    ----------
+    field : Field
+        What the value is for.
+    value : object
+        A text as written in a cell, a number, or None. Empty is unknown.
+
+    Returns
+    -------
+    float, int, str or None
+        As the database holds it.
+
+    Raises
+    ------
+    Refused
+        If it may not stand there.
+    """
+    if value is None or (isinstance(value, str) and not value.strip()):
+        return None
+    if field.is_text:
+        return _read_text(field, value)
+    number = _read_number(field, value) if isinstance(value, str) else _as_number(field, value)
+    _check_range(field, number)
+    return number
+
+
+def write_value(value: Value) -> str:
+    """Write a value as a cell that reads back as the same value."""
+    if value is None:
+        return ""
+    if isinstance(value, float):
+        return UNLIMITED if isinf(value) else _shortest(value)
+    return str(value)
+
+
+def check_row(kind: Kind, row: Mapping[str, Value]) -> list[tuple[str, Refused]]:
+    """Check what concerns several columns, and what is missing.
+
+    Parameters
+    ----------
+    kind : Kind
+        Of the row.
+    row : mapping of str to value
+        Values by column; an absent column is unknown.
+
+    Returns
+    -------
+    list of (str, Refused)
+        Column and objection.
+    """
+    refusals = [
+        (field.name, Refused(field.expected, "this column has to be filled in every row"))
+        for field in kind.required
+        if row.get(field.name) is None
+    ]
+    refusals += [
+        (group[0], Refused(f"at least one of {', '.join(group)}", "fill one of these columns"))
+        for group in kind.any_of
+        if all(row.get(name) is None for name in group)
+    ]
+    for order in kind.orders:
+        greater, lesser = row.get(order.greater), row.get(order.lesser)
+        if isinstance(greater, float) and isinstance(lesser, float) and greater < lesser:
+            expected = f"at least {order.lesser} = {write_value(lesser)} [{kind.field(order.greater).unit}]"
+            refusals.append((order.greater, Refused(expected, "check both figures in the source")))
+    return refusals
+
+
+def _shortest(value: float) -> str:
+    return str(int(value)) if value.is_integer() and abs(value) < 1e15 else repr(value)  # noqa: PLR2004 - 15 digits
+
+
+def _read_text(field: Field, value: object) -> str:
+    if not isinstance(value, str):
+        raise Refused(field.expected, f"write it as a text: '{value}'")
+    if unfit := _NO_TEXT.search(value):
+        raise Refused("a text", f"remove the character {unfit.group()!a}")
+    if field.choices and value not in field.choices:
+        near = value.strip().casefold()
+        raise Refused(field.expected, f"write {near}" if near in field.choices else "")
+    if field.pattern and not re.fullmatch(field.pattern, value):
+        stripped = value.strip()
+        spaces_only = stripped != value and re.fullmatch(field.pattern, stripped)
+        raise Refused(field.expected, "remove the spaces around it" if spaces_only else "")
+    return value
+
+
+def _read_number(field: Field, text: str) -> float | int:
+    text = text.strip()
+    if text.casefold() == UNLIMITED:
+        return inf
+    if field.type == "int" and _WHOLE.fullmatch(text):
+        return int(text)
+    if field.type == "float" and _NUMBER.fullmatch(text):
+        number = float(text)
+        if isinf(number):
+            raise Refused(field.expected, _TOO_LARGE)
+        return number + 0.0
+    raise Refused(field.expected, _remedy(field, text))
+
+
+def _remedy(field: Field, text: str) -> str:
+    if _DECIMAL_COMMA.fullmatch(text):
+        return f"a decimal comma was given, write {text.replace(',', '.')} with a point"
+    word = text.casefold().lstrip("+-")
+    if word in {"inf", "infinity", "∞"}:
+        return f"write {UNLIMITED}" if field.may_be_unlimited else "leave it empty if it is unknown"
+    if word in {"nan", "none", "null", "unknown", "n/a", "na", "-", "", "–", "?"}:  # lstrip leaves "" of "-"
+        return "leave it empty if it is unknown"
+    if quantity := _QUANTITY.fullmatch(text):
+        given = "a per cent sign" if text.rstrip().endswith("%") else "a unit"
+        return f"{given} was given, write {quantity[1]}" + (f" in {field.unit}" if field.unit else "")
+    return "write a whole number without a point" if _NUMBER.fullmatch(text) else "leave it empty if it is unknown"
+
+
+def _as_number(field: Field, value: object) -> float | int:
+    if isinstance(value, bool) or not isinstance(value, Real):
+        raise Refused(field.expected, "write a number")
+    try:
+        number = float(value)
+    except OverflowError:
+        raise Refused(field.expected, _TOO_LARGE) from None
+    if isnan(number):
+        raise Refused(field.expected, "NaN is no figure; leave it empty if it is unknown")
+    if field.type == "int" and not isinf(number):
+        if not number.is_integer():
+            raise Refused(field.expected, "write a whole number")
+        return int(number)
+    return number + 0.0  # makes 0.0 of -0.0, which not every database tells apart
+
+
+def _check_range(field: Field, number: float) -> None:
+    if isinf(number):
+        if not field.may_be_unlimited or number < 0.0:
+            raise Refused(field.expected, "this figure cannot be unlimited; leave it empty if it is unknown")
+        return
+    too_small = (field.minimum is not None and number < field.minimum) or (
+        field.exclusive_minimum is not None and number <= field.exclusive_minimum
+    )
+    if too_small and field.unit == "%" and 0.0 < number <= 1.0:
+        raise Refused(field.expected, f"a fraction was given, write {_shortest(round(100.0 * number, 10))}")
+    if too_small or (field.maximum is not None and number > field.maximum):
+        raise Refused(field.expected, "leave it empty if it is unknown" if number == 0.0 and too_small else "")

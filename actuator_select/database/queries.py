@@ -1,0 +1,162 @@
+"""Every SQL statement of the program."""
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import sqlalchemy as sa
+
+from actuator_select.database.cells import Value
+from actuator_select.database.fields import Field, Kind
+from actuator_select.database.kinds import ACTUATORS, ROLES
+from actuator_select.database.schema import SHIPPED_ROWS, STATE, TABLES
+
+Row = dict[str, Value]
+
+_IDS_PER_QUERY = 500  # stays below the number of parameters that any database takes
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Column:
+    """A column that a query can show, compare and sort by.
+
+    Attributes
+    ----------
+    name : str
+        As it appears in results, such as ``id`` or ``motor.rated_power_w``.
+    field : Field
+        What it holds.
+    expression : sqlalchemy column
+        Where it is.
+    """
+
+    name: str
+    field: Field
+    expression: "sa.Column[Any]"
+
+
+def columns_of(kind: Kind) -> tuple[Column, ...]:
+    """Columns of a kind, own columns first; those of actuators include their parts'."""
+    table = TABLES[kind.name]
+    columns = [Column(name=field.name, field=field, expression=table.c[field.name]) for field in kind.columns]
+    if kind is ACTUATORS:
+        for role, part in ROLES.items():
+            columns += [
+                Column(name=f"{role}.{field.name}", field=field, expression=TABLES[part.name].c[field.name])
+                for field in part.columns
+            ]
+    return tuple(columns)
+
+
+def fetch_rows(
+    connection: sa.Connection,
+    kind: Kind,
+    condition: "sa.ColumnElement[bool] | None" = None,
+    order: "Sequence[sa.ColumnElement[Any]]" = (),
+) -> list[Row]:
+    """Rows that meet `condition`, in `order` and then by id."""
+    columns = columns_of(kind)
+    query = sa.select(*(column.expression.label(column.name) for column in columns)).select_from(_source(kind))
+    if condition is not None:
+        query = query.where(condition)
+    query = query.order_by(*order, TABLES[kind.name].c.id)
+    names = [column.name for column in columns]
+    return [dict(zip(names, values, strict=True)) for values in connection.execute(query)]
+
+
+def fetch_own_rows(connection: sa.Connection, kind: Kind, ids: Iterable[str] | None = None) -> dict[str, Row]:
+    """Rows without their parts' columns, by id: all, or those of `ids` that exist."""
+    table = TABLES[kind.name]
+    query = sa.select(*(table.c[field.name] for field in kind.columns)).order_by(table.c.id)
+    if ids is None:
+        batches = [query]
+    else:
+        wanted = sorted(set(ids))
+        starts = range(0, len(wanted), _IDS_PER_QUERY)
+        batches = [query.where(table.c.id.in_(wanted[start : start + _IDS_PER_QUERY])) for start in starts]
+    names = [field.name for field in kind.columns]
+    found = (dict(zip(names, values, strict=True)) for batch in batches for values in connection.execute(batch))
+    return {str(row["id"]): row for row in found}
+
+
+def fetch_values(connection: sa.Connection, kind: Kind, column: str) -> dict[str, str]:
+    """Texts of one column by id, in the order of the ids."""
+    table = TABLES[kind.name]
+    query = sa.select(table.c.id, table.c[column]).order_by(table.c.id)
+    return {str(row_id): value for row_id, value in connection.execute(query)}
+
+
+def count_rows(connection: sa.Connection, kind: Kind) -> int:
+    """Number of rows of a kind."""
+    return int(connection.scalar(sa.select(sa.func.count()).select_from(TABLES[kind.name])) or 0)
+
+
+def insert_rows(connection: sa.Connection, kind: Kind, rows: Sequence[Mapping[str, Value]]) -> None:
+    """Add rows; an absent column is unknown."""
+    if rows:
+        connection.execute(
+            TABLES[kind.name].insert(), [{field.name: row.get(field.name) for field in kind.columns} for row in rows]
+        )
+
+
+def update_rows(connection: sa.Connection, kind: Kind, rows: Sequence[Mapping[str, Value]]) -> None:
+    """Replace the rows that have these ids."""
+    if rows:
+        table = TABLES[kind.name]
+        statement = table.update().where(table.c.id == sa.bindparam("row_id"))
+        values = [{field.name: row.get(field.name) for field in kind.columns} for row in rows]
+        connection.execute(statement, [value | {"row_id": value["id"]} for value in values])
+
+
+def delete_rows(connection: sa.Connection, kind: Kind, ids: Sequence[str]) -> None:
+    """Remove the rows that have these ids."""
+    if ids:
+        table = TABLES[kind.name]
+        connection.execute(table.delete().where(table.c.id == sa.bindparam("row_id")), [{"row_id": i} for i in ids])
+
+
+def fetch_referenced(connection: sa.Connection, kind: Kind) -> set[str]:
+    """Ids of a kind that other rows refer to."""
+    table = TABLES[kind.name]
+    referring = [
+        sa.select(column) for other in TABLES.values() for column in other.columns if column.references(table.c.id)
+    ]
+    if not referring:
+        return set()
+    return {str(value) for value in connection.scalars(sa.union(*referring)) if value is not None}
+
+
+def fetch_ledger(connection: sa.Connection) -> dict[tuple[str, str], str]:
+    """Digest of every shipped row as shipped, by kind and id."""
+    query = sa.select(SHIPPED_ROWS.c.kind, SHIPPED_ROWS.c.id, SHIPPED_ROWS.c.digest)
+    return {(kind, row_id): digest for kind, row_id, digest in connection.execute(query)}
+
+
+def replace_ledger(connection: sa.Connection, ledger: Mapping[tuple[str, str], str]) -> None:
+    """State anew what was shipped."""
+    connection.execute(SHIPPED_ROWS.delete())
+    if ledger:
+        entries = [{"kind": kind, "id": row_id, "digest": digest} for (kind, row_id), digest in ledger.items()]
+        connection.execute(SHIPPED_ROWS.insert(), entries)
+
+
+def fetch_state(connection: sa.Connection, name: str) -> str | None:
+    """A remark that the program left in the database."""
+    return connection.scalar(sa.select(STATE.c.value).where(STATE.c.name == name))
+
+
+def replace_state(connection: sa.Connection, name: str, value: str) -> None:
+    """Leave a remark in the database."""
+    connection.execute(STATE.delete().where(STATE.c.name == name))
+    connection.execute(STATE.insert(), {"name": name, "value": value})
+
+
+def _source(kind: Kind) -> sa.FromClause:
+    table: sa.FromClause = TABLES[kind.name]
+    if kind is not ACTUATORS:
+        return table
+    own = TABLES[kind.name].c
+    for role, part in ROLES.items():
+        other = TABLES[part.name]
+        table = table.outerjoin(other, own[f"{role}_id"] == other.c.id)
+    return table

@@ -1,0 +1,229 @@
+"""The command line: contract, bad input, and the README's commands."""
+
+import json
+import re
+import shlex
+from collections.abc import Callable
+from pathlib import Path
+
+import click
+import pytest
+
+from actuator_select.cli import COMMANDS, main
+from actuator_select.cli import command as program
+
+README = (Path(__file__).parents[2] / "README.md").read_text(encoding="utf-8")
+Run = Callable[..., tuple[int, str, str]]
+
+
+@pytest.fixture
+def run(capfd: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Run:
+    """Run the program in an empty folder on a database of its own."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("ACTUATOR_SELECT_DATABASE", str(tmp_path / "catalogue.db"))
+
+    def call(*arguments: str) -> tuple[int, str, str]:
+        status = main(list(arguments))
+        out, err = capfd.readouterr()
+        return status, out, err
+
+    return call
+
+
+def readme_commands() -> list[str]:
+    blocks = re.findall(r"```console\n(.*?)```", README, flags=re.DOTALL)
+    quick = [line for block in blocks for line in block.splitlines() if line.startswith("actuator-select ")]
+    tabled = re.findall(r"`(actuator-select (?:rank|report) [^`]*)`", README.split("## Study files")[0])
+    return [command for command in quick + tabled if "reports/" not in command]
+
+
+def test_every_command_in_the_readme_runs_in_order(run: Run) -> None:
+    commands = readme_commands()
+    assert len(commands) > 12
+    for command in commands:
+        status, _, err = run(*shlex.split(command)[1:])
+        assert status == 0, f"{command}\n{err}"
+
+
+def test_the_counts_in_the_readme_are_what_its_commands_print(run: Run) -> None:
+    rows = re.findall(r"\| ([\d, *]+) \| `actuator-select ([^`]+)` \|", README)
+    assert len(rows) == 6
+    for text, command in rows:
+        expected = [int(number) for number in text.replace("*", "").split(",")]
+        _, out, _ = run(*shlex.split(command), "--format", "json")
+        found = {one["name"]: one["feasible_poses"] for one in json.loads(out)["actuators"]}
+        assert [found[f"Actuator {number}"] for number in range(1, len(expected) + 1)] == expected, command
+
+
+def test_the_readme_has_two_set_up_lines_on_its_first_screen() -> None:
+    lines = README.splitlines()
+    assert [index for index, line in enumerate(lines) if line.startswith("python3 -m venv")][-1] < 25
+    assert sum(line.startswith("python3 -m venv") for line in lines) == 2
+
+
+def all_commands() -> dict[str, click.Command]:
+    context = click.Context(program)
+    found = {}
+    for name in COMMANDS:
+        one = program.get_command(context, name)
+        assert one is not None
+        if isinstance(one, click.Group):
+            found |= {f"{name} {sub}": inner for sub, inner in one.commands.items()}
+        else:
+            found[name] = one
+    return found
+
+
+def test_the_readme_lists_every_command_and_no_other() -> None:
+    table = README.split("## Commands")[1].split("## ")[0]
+    listed = {" ".join(re.findall(r"[a-z]+", row)) for row in re.findall(r"`actuator-select ([a-z ]+)", table)}
+    assert listed == set(all_commands())
+
+
+@pytest.mark.parametrize("name", sorted(all_commands()))
+def test_every_command_and_option_has_help(name: str) -> None:
+    command = all_commands()[name]
+    assert command.help
+    for parameter in command.params:
+        if isinstance(parameter, click.Option):
+            assert parameter.help, f"{name} {parameter.opts}"
+
+
+def test_rank_prints_what_the_share_is_of_then_the_table(run: Run) -> None:
+    status, out, err = run("rank", "cpr8")
+    assert status == 0
+    for text in ("box", "6 × 6 × 6 positions", "orientations", "pseudo_inverse", "independent", "200/216 (92.6 %)"):
+        assert text in out
+    assert out.index("pseudo_inverse") < out.index("Actuator 1")
+    assert "172 of 216" in err
+    assert "172 of 216" not in out
+
+
+def test_json_stands_alone_on_stdout(run: Run) -> None:
+    status, out, _ = run("rank", "cpr8", "--format", "json", "--only-meeting")
+    record = json.loads(out, parse_constant=pytest.fail)
+    assert status == 0
+    assert [one["name"] for one in record["actuators"]] == ["Actuator 1"]
+    assert record["actuators"][0]["feasible_percent"] == 92.59
+
+
+def test_that_no_actuator_meets_the_requirement_is_a_result(run: Run) -> None:
+    status, out, _ = run("rank", "cpr8", "--require", "100")
+    assert status == 0
+    assert "0 of 5 actuators meet" in out
+    status, out, _ = run("rank", "cpr8", "--require", "100", "--only-meeting", "--format", "json")
+    assert status == 0
+    assert json.loads(out)["actuators"] == []
+
+
+def test_csv_has_a_row_per_actuator(run: Run) -> None:
+    status, out, _ = run("rank", "cpr8", "--format", "csv")
+    assert status == 0
+    lines = out.splitlines()
+    assert lines[0].startswith("id,name,verdict,feasible_percent,feasible_poses,poses,speed_state")
+    assert len(lines) == 6
+
+
+def test_simulate_names_who_exceeds_what_when_and_draws_it(run: Run, tmp_path: Path) -> None:
+    line = ["--from", "0.153,0.153,-0.153", "--to", "3.047,0.153,-0.153", "--orientation-rad", "0.5,0.5,0.5"]
+    status, out, err = run("simulate", "cpr8", "Actuator 1", *line, "--plot", "run.svg")
+    assert status == 0
+    for actuator in (1, 3, 8):
+        assert re.search(rf"actuator {actuator}: torque over its limit from 0\.\d+ s to 2\.\d+ s", out)
+    assert "push" in err
+    assert (tmp_path / "run.svg").read_text(encoding="utf-8").startswith("<?xml")
+    status, out, _ = run("simulate", "cpr8", "Actuator 1", *line, "--format", "json")
+    record = json.loads(out, parse_constant=pytest.fail)
+    assert {one["actuator"] for one in record["exceedances"]} == {1, 3, 8}
+
+
+def test_a_shown_study_is_a_study_file(run: Run, tmp_path: Path) -> None:
+    _, out, _ = run("study", "show", "cpr8", "--set", "payload.mass_kg=3.0")
+    (tmp_path / "own.toml").write_text(out, encoding="utf-8")
+    assert run("rank", "own.toml")[0] == 0
+    assert run("study", "list", "--format", "json")[0] == 0
+
+
+def test_a_new_study_does_not_replace_a_file_unless_told_to(run: Run, tmp_path: Path) -> None:
+    file = tmp_path / "mine.toml"
+    file.write_text("precious", encoding="utf-8")
+    status, _, err = run("study", "new", "mine.toml")
+    assert status == 2
+    assert "--force" in err
+    assert file.read_text(encoding="utf-8") == "precious"
+    assert run("study", "new", "mine.toml", "--force")[0] == 0
+    assert run("rank", "mine.toml")[0] == 0
+
+
+BAD_INPUT = [
+    (["rank", "cpr9"], "did you mean 'cpr8'"),
+    (["rank"], "Missing argument 'STUDY'"),
+    (
+        ["rank", "cpr8", "--set", "motion.acceleration_time_s=0"],
+        "motion.acceleration_time_s: 0, expected more than 0 [s]",
+    ),
+    (["rank", "cpr8", "--set", "motion.speed_max_m_per_s=nan"], "expected a finite number [m/s]"),
+    (["rank", "cpr8", "--set", "motion.speed_max_m_per_s=inf"], "expected a finite number [m/s]"),
+    (["rank", "cpr8", "--set", "motion.sped=1"], "is not a key of a study"),
+    (["rank", "cpr8", "--set", "workspace.points=[0,6,6]"], "expected at least 1"),
+    (["rank", "cpr8", "--set", "robot.carrier_m=[3,3,3]"], "fits into the frame"),
+    (["rank", "cpr8", "--set", "nonsense"], "KEY=VALUE"),
+    (["rank", "cpr8", "--where", "rated_power_w > 1000"], "no actuator in the catalogue meets"),
+    (["rank", "cpr8", "--where", "rated_powr_w > 10"], "rated_power_w"),
+    (["rank", "cpr8", "--where", "rated_power_w >"], "^"),
+    (["rank", "cpr8", "--require", "120"], "120"),
+    (["report", "cpr8", "--output", "missing/cpr8.html"], "cannot write"),
+    (["simulate", "cpr8", "Actuator 9", "--from", "0,0,-1", "--to", "1,1,-1"], "did you mean"),
+    (["simulate", "cpr8", "Actuator 1", "--from", "0,0", "--to", "1,1,-1"], "three numbers"),
+    (["simulate", "cpr8", "Actuator 1", "--from", "1,1,-1", "--to", "1,1,-1"], "another position"),
+    (["simulate", "cpr8", "Actuator 1", "--from", "1,1,-1", "--to", "1,1,nan"], "finite"),
+    (["simulate", "cpr8", "Actuator 1", "--from", "1,1,-1", "--to", "1,2,-1", "--plot", "run.doc"], ".doc"),
+    (["study", "show", "missing.toml"], "missing.toml"),
+    (["study", "new", "missing/robot.toml"], "cannot write"),
+    (["nonsense"], "No such command"),
+]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"), BAD_INPUT, ids=lambda value: " ".join(value) if isinstance(value, list) else ""
+)
+def test_bad_input_gets_one_clear_message_and_status_2(
+    run: Run, arguments: list[str], message: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("ACTUATOR_SELECT_TRACEBACK", "1")
+    status, out, err = run(*arguments)
+    assert status == 2
+    assert message in err
+    assert "Traceback" not in err
+    assert out == ""
+
+
+def test_an_unwritable_report_leaves_the_old_one(run: Run, tmp_path: Path) -> None:
+    folder = tmp_path / "cpr8.html"
+    folder.mkdir()
+    status, _, err = run("report", "cpr8", "--output", "cpr8.html")
+    assert status == 2
+    assert "it is a folder" in err
+    assert list(tmp_path.glob(".cpr8*")) == []
+
+
+def test_ctrl_c_is_status_130(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    def interrupt(*_: object, **__: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("actuator_select.selection.rank", interrupt)
+    status, out, err = run("rank", "cpr8")
+    assert status == 130
+    assert out == ""
+    assert "Interrupted" in err
+
+
+def test_a_fault_of_the_program_is_status_1_and_says_so(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    def fail(*_: object, **__: object) -> None:
+        raise RuntimeError("broken")
+
+    monkeypatch.delenv("ACTUATOR_SELECT_TRACEBACK", raising=False)
+    monkeypatch.setattr("actuator_select.selection.rank", fail)
+    status, _, err = run("rank", "cpr8")
+    assert status == 1
+    assert "a fault of actuator-select" in err

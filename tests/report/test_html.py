@@ -1,0 +1,114 @@
+"""The design report: complete, escaped, by itself."""
+
+import re
+from datetime import UTC, datetime
+
+import pytest
+
+from actuator_select import Catalogue, ReportDetails, load_study, open_catalogue, rank, render_report
+
+DETAILS = ReportDetails(
+    generated_at=datetime(2026, 11, 22, 12, 0, tzinfo=UTC),
+    project="Camera <robot>",
+    author="A & B",
+    revision="C",
+    command="actuator-select report cpr8",
+)
+
+
+@pytest.fixture(scope="module")
+def page(catalogue: Catalogue) -> str:
+    return render_report(rank(load_study("cpr8"), catalogue), catalogue, DETAILS)
+
+
+def test_the_first_section_has_verdict_weakest_check_pose_and_what_is_not_modelled(page: str) -> None:
+    first = page[page.index('<section class="first">') : page.index("</section>")]
+    text = " ".join(re.sub(r"<[^>]+>", " ", first).split())
+    assert "1 of 5 actuators serves at least 90 % of the workspace: Actuator 1." in text
+    assert "acceleration, 204/216 on its own" in text
+    assert "x 3.047, y 2.047, z -0.153 m" in text
+    assert "What is not modelled Sag and elasticity" in text
+    assert "pseudo_inverse" in text
+
+
+def test_the_report_needs_no_network_and_no_other_file(page: str) -> None:
+    references = re.findall(r'(?:src|href)\s*=\s*"([^"]*)"', page)
+    assert references
+    assert all(reference.startswith("data:image/") for reference in references)
+    assert "<script" not in page
+    assert "@import" not in page
+    assert "url(" not in page
+    assert len(page.encode()) < 3_000_000
+
+
+def test_every_figure_has_a_description(page: str) -> None:
+    images = re.findall(r"<img[^>]*>", page)
+    assert len(images) > 8
+    assert all(re.search(r'alt="[^"]{10,}"', image) for image in images)
+
+
+def test_the_published_table_stands_only_in_studies_that_have_one(page: str, catalogue: Catalogue) -> None:
+    assert "Table 2" in page
+    text = load_study("cpr8").text
+    own = text[: text.index("[published]")].replace('name = "cpr8"', 'name = "mine"')
+    from actuator_select.study import parse_study
+
+    other = render_report(rank(parse_study(own, place="mine"), catalogue), catalogue, DETAILS)
+    assert "Table 2" not in other.replace("eq. 34", "")
+
+
+def test_the_report_says_how_to_repeat_it(page: str, catalogue: Catalogue) -> None:
+    assert catalogue.fingerprint() in page
+    assert "actuator-select report cpr8" in page
+    assert "2026-11-22 12:00 UTC" in page
+    assert "Camera &lt;robot&gt;" in page
+    assert "A &amp; B" in page
+    assert "speed_max_m_per_s = 1.3" in page
+
+
+def test_the_report_repeats_the_plausibility_findings_of_its_parts(page: str) -> None:
+    for part in ("motor-2", "motor-3", "motor-4", "motor-5"):
+        assert f"filipovic-kevac-2018-{part}" in page[page.index("Warnings") : page.index("What is not modelled")]
+    assert "112.3 W follows from rated torque × rated speed" in page
+
+
+def test_a_part_named_like_a_script_appears_as_text() -> None:
+    name = "<script>alert(1)</script>"
+    with open_catalogue(":memory:") as own:
+        own.add(
+            "actuators",
+            {
+                "id": "evil",
+                "name": name,
+                "motor_id": "filipovic-kevac-2018-motor-1",
+                "gearbox_id": "filipovic-kevac-2018-gearbox-30",
+                "winch_id": "filipovic-kevac-2018-winch",
+                "efficiency_percent": 60,
+                "source_id": "filipovic-kevac-2018",
+                "notes": "<img src=x onerror=alert(2)>",
+            },
+        )
+        page = render_report(rank(load_study("cpr8"), own), own, DETAILS)
+    assert "&lt;script&gt;alert(1)&lt;/script&gt;" in page
+    assert "<script" not in page
+    assert "<img src=x" not in page
+
+
+def test_a_report_of_actuators_with_unknown_figures_says_so() -> None:
+    with open_catalogue(":memory:") as own:
+        own.add("motors", {"id": "bare", "rated_speed_rpm": 5000, "source_id": "filipovic-kevac-2018"})
+        own.add(
+            "actuators",
+            {
+                "id": "bare",
+                "name": "Bare",
+                "motor_id": "bare",
+                "winch_id": "filipovic-kevac-2018-winch",
+                "source_id": "filipovic-kevac-2018",
+            },
+        )
+        selection = rank(load_study("cpr8"), own, where="name = 'Bare'")
+        page = render_report(selection, own, DETAILS)
+    assert selection.ranked[0].verdict == "undecided"
+    assert "cannot be decided, because figures are missing" in page
+    assert "not evaluated: rated torque" in page
