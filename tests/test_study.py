@@ -54,6 +54,7 @@ def test_the_starter_study_works_as_it_stands() -> None:
         ("checks.apply", ["speed", "speed"], "every check once"),
         ("checks.apply", [], "checks.apply: [], expected at least 1"),
         ("requirement.feasible_percent", 120, "requirement.feasible_percent: 120, expected at most 100 [per cent"),
+        ("workspace.points", [1000, 1000, 1000], "are 1,000,000,000 poses, expected at most 2,000,000; take a coarser"),
         ("motion.velocity_intervals", 6, 'expected set = "sampled" where velocity_intervals is given'),
         ("motion.sped_max_m_per_s", 1.0, "did you mean 'speed_max_m_per_s'"),
         ("gravity", 9.81, "did you mean 'gravity_m_per_s2'"),

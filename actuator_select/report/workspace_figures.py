@@ -40,6 +40,7 @@ def share_bars(selection: Selection, actuators: Sequence[RankedActuator]) -> Fig
             f"{actuator.feasible_poses}/{selection.poses} ({actuator.feasible_percent:.1f} %)",
             va="center",
             fontsize=8,
+            bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.85, "pad": 0.8},
         )
     axes.axvline(selection.required_percent, color=RED, linestyle="--", linewidth=1.2)
     axes.text(

@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 from importlib import resources
+from math import prod
 from pathlib import Path
 
 import numpy as np
@@ -21,6 +22,8 @@ from actuator_select.model.tension import TensionModel
 from actuator_select.study.overrides import apply_overrides
 from actuator_select.study.problems import study_problems
 from actuator_select.study.schema import MotionTable, RobotTable, StudyTable, WorkspaceTable
+
+MOST_POSES = 2_000_000  # some 4 GB of demand for eight cables
 
 _STUDIES = resources.files("actuator_select") / "studies"
 
@@ -159,8 +162,9 @@ def parse_study(text: str, *, place: str, overrides: Mapping[str, object] | None
         table = StudyTable.model_validate(content)
     except ValidationError as error:
         raise InvalidStudy(f"study {place!r} does not hold", study_problems(error)) from error
-    robot, region = _robot(table.robot, table.workspace, place)
     workspace = table.workspace
+    _refuse_too_many_poses(workspace, place)
+    robot, region = _robot(table.robot, workspace, place)
     return Study(
         name=table.name,
         text=text,
@@ -228,6 +232,18 @@ def _overridden(text: str, overrides: Mapping[str, object], place: str) -> str:
     document = _parsed(text, place)
     apply_overrides(document, overrides)
     return tomlkit.dumps(document)
+
+
+def _refuse_too_many_poses(workspace: WorkspaceTable, place: str) -> None:
+    poses = prod(workspace.points) * len(workspace.orientations_rad)
+    if poses > MOST_POSES:
+        problem = Problem(
+            place="workspace.points",
+            value=f"{list(workspace.points)} at {len(workspace.orientations_rad)} orientations are {poses:,} poses",
+            expected=f"at most {MOST_POSES:,}",
+            remedy="take a coarser grid, or parts of the workspace one after the other with box_m",
+        )
+        raise InvalidStudy(f"study {place!r} does not hold", [problem])
 
 
 def _robot(robot: RobotTable, workspace: WorkspaceTable, place: str) -> tuple[CableRobot, FloatArray]:

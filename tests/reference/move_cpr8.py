@@ -1,5 +1,6 @@
 """The simulated move of section 3.1.3 in [1] of scalar_cpr8, one instant at a time in plain floats."""
 
+
 @dataclass(frozen=True, slots=True)
 class Instant:
     """One time of a simulated move; lists of eight shafts behind the gearbox, in SI units."""
@@ -10,9 +11,6 @@ class Instant:
     accelerations: list[float]
     torques: list[float]
     voltages: list[float]
-
-
-
 
 
 def top_edge(case: Case) -> tuple[Vector, Vector]:

@@ -284,7 +284,9 @@ def sample_pose(case: Case, position: Vector) -> Samples:
         square = dot(velocity, velocity)
         rates = [dot(u, velocity) for u in pose.directions]  # eq. 19, times R_w
         samples.rates.append(rates)
-        samples.bends.append([bend_of(case, rate, square, length) for rate, length in zip(rates, pose.lengths, strict=True)])
+        samples.bends.append(
+            [bend_of(case, rate, square, length) for rate, length in zip(rates, pose.lengths, strict=True)]
+        )
     for acceleration in acceleration_samples(case):
         samples.hauls.append([dot(u, acceleration) for u in pose.directions])
         samples.tensions.append(tensions_at(case, pose, acceleration))

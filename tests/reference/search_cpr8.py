@@ -106,5 +106,3 @@ def _passes_exactly(case: Case, pose: Pose, actuator: Actuator, check: Check) ->
 def count_poses_exactly(case: Case, actuator: Actuator, checks: Sequence[Check]) -> int:
     poses = (pose_at(case, position) for position in pose_grid(case))
     return sum(all(_passes_exactly(case, pose, actuator, check) for check in checks) for pose in poses)
-
-
