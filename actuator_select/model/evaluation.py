@@ -20,7 +20,8 @@ from actuator_select.model.actuation import (
 from actuator_select.model.arrays import BoolArray, FloatArray, IntArray
 from actuator_select.model.components import ActuatorSet
 from actuator_select.model.demand import Demand, Progress
-from actuator_select.model.voltage import VoltageCounter, voltage_demand
+from actuator_select.model.voltage import voltage_demand
+from actuator_select.model.voltage_count import VoltageCounter
 
 ROUNDING = 1e-12  # relative; a demand that exceeds its limit by less is rounding, and passes
 CELLS_AT_ONCE = 1 << 25  # (actuator, position) pairs in one chunk: 32 MiB of verdicts

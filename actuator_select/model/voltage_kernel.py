@@ -4,7 +4,7 @@ At one position the largest demand H(m) + damping · speed is convex in the refl
 functions of it. Tabulated at a few masses, its chords bound it from above and its extended chords from below; only
 where limit or running maximum lie between the two bounds is a position evaluated cable by cable.
 
-Loaded only when `voltage.VoltageCounter` asks for it: importing it costs seconds the first time and a fraction of a
+Loaded only when `voltage_count.VoltageCounter` asks for it: importing it costs seconds the first time and a fraction of a
 second later, because the compiled code is kept in the user's cache folder.
 """
 
@@ -27,7 +27,7 @@ POSITIONS_AT_ONCE = 512  # positions whose bounds stay in a core's cache while a
 
 
 def count(rows: VoltageDemand, line: VoltageLine, others: BoolArray, tally: Tally) -> None:
-    """As `voltage.count_with_numpy`, on every core.
+    """As `voltage_count.count_with_numpy`, on every core.
 
     Parameters
     ----------

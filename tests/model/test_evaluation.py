@@ -5,7 +5,7 @@ from dataclasses import fields, replace
 import numpy as np
 import pytest
 
-from actuator_select.model import voltage
+from actuator_select.model import voltage, voltage_count
 from actuator_select.model.actuation import Check, voltage_line
 from actuator_select.model.arrays import FloatArray
 from actuator_select.model.components import ActuatorSet
@@ -62,7 +62,7 @@ def test_the_compiled_counter_agrees_with_numpy(motion: MotionSet, monkeypatch: 
     pytest.importorskip("numba")
     demand, actuators = demand_of(motion, points=6), synthetic_actuators(60)
     slow = evaluate_actuators(demand, actuators, list(Check))
-    monkeypatch.setattr(voltage, "KERNEL_PAYS_FROM", 0)
+    monkeypatch.setattr(voltage_count, "KERNEL_PAYS_FROM", 0)
     fast = evaluate_actuators(demand, actuators, list(Check))
     counts = slow.checks[Check.VOLTAGE].positions
     assert 0 < np.count_nonzero((counts > 0) & (counts < 216)) < 60  # the case decides something
@@ -77,7 +77,7 @@ def test_the_compiled_counter_agrees_for_actuators_that_are_all_alike(monkeypatc
     pytest.importorskip("numba")
     demand, actuators = demand_of(), synthetic_actuators(1)
     twins = actuators.take([0, 0, 0])
-    monkeypatch.setattr(voltage, "KERNEL_PAYS_FROM", 0)
+    monkeypatch.setattr(voltage_count, "KERNEL_PAYS_FROM", 0)
     fast = evaluate_actuators(demand, twins, [Check.VOLTAGE])
     monkeypatch.undo()
     slow = evaluate_actuators(demand, twins, [Check.VOLTAGE])
