@@ -4,8 +4,8 @@ At one position the largest demand H(m) + damping · speed is convex in the refl
 functions of it. Tabulated at a few masses, its chords bound it from above and its extended chords from below; only
 where limit or running maximum lie between the two bounds is a position evaluated cable by cable.
 
-Loaded only when `voltage_count.VoltageCounter` asks for it: importing it costs seconds the first time and a fraction of a
-second later, because the compiled code is kept in the user's cache folder.
+Loaded only when `voltage_count.VoltageCounter` asks for it: importing it costs seconds the first time and a fraction
+of a second later, because the compiled code is kept in the user's cache folder.
 """
 
 import os

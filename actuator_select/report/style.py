@@ -27,7 +27,8 @@ CABLE_COLOURS = (BLUE, ORANGE, GREEN, PURPLE)  # with four dashes, see `drive_fi
 CHECK_COLOURS = {Check.SPEED: SKY, Check.TORQUE: ORANGE, Check.ACCELERATION: PURPLE, Check.VOLTAGE: RED}
 
 STYLE: dict[Any, Any] = {
-    "font.family": "DejaVu Sans",
+    "font.family": "sans-serif",
+    "font.sans-serif": ["DejaVu Sans", "Verdana", "Arial"],
     "font.size": 9.0,
     "xtick.labelsize": 8.0,
     "ytick.labelsize": 8.0,
@@ -37,7 +38,7 @@ STYLE: dict[Any, Any] = {
     "axes.spines.right": False,
     "legend.frameon": False,
     "legend.fontsize": 8.0,
-    "svg.fonttype": "path",
+    "svg.fonttype": "none",  # text stays text: smaller, searchable, in a font that the reader has
     "svg.hashsalt": "actuator-select",
 }
 

@@ -54,11 +54,11 @@ def _actuator_record(actuator: RankedActuator, poses: int) -> dict[str, Any]:
 
 
 def _check_record(verdict: CheckVerdict) -> dict[str, Any]:
-    worst = verdict.worst_utilisation
     return {
         "state": verdict.state.value,
         "poses": verdict.poses,
-        "worst_utilisation": worst if worst is not None and isfinite(worst) else None,
+        "worst_utilisation": _finite(verdict.worst_utilisation),
+        "margin": _finite(verdict.margin),
         "worst_position_m": list(verdict.worst_position) if verdict.worst_position else None,
         "missing": list(verdict.missing),
     }
@@ -106,5 +106,5 @@ def simulation_record(run: Simulation) -> dict[str, Any]:
     }
 
 
-def _finite(value: float) -> float | None:
-    return float(value) if isfinite(value) else None
+def _finite(value: float | None) -> float | None:
+    return float(value) if value is not None and isfinite(value) else None

@@ -48,6 +48,8 @@ class CheckVerdict:
         Positions at which this limit alone holds; None where it was not evaluated.
     worst_utilisation : float or None
         Largest demand over limit.
+    margin : float or None
+        What is left of the limit at the worst, as a share of it; negative where it is exceeded.
     worst_position : tuple of float or None
         Where that is. [m]
     missing : tuple of str
@@ -59,6 +61,11 @@ class CheckVerdict:
     worst_utilisation: float | None = None
     worst_position: tuple[float, float, float] | None = None
     missing: tuple[str, ...] = ()
+
+    @property
+    def margin(self) -> float | None:
+        """1 - worst utilisation."""
+        return None if self.worst_utilisation is None else 1.0 - self.worst_utilisation
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -1,5 +1,6 @@
 """Actuators held against a demand."""
 
+import sys
 from dataclasses import fields, replace
 
 import numpy as np
@@ -82,6 +83,15 @@ def test_the_compiled_counter_agrees_for_actuators_that_are_all_alike(monkeypatc
     monkeypatch.undo()
     slow = evaluate_actuators(demand, twins, [Check.VOLTAGE])
     assert fast.positions.tolist() == slow.positions.tolist()
+
+
+def test_without_a_compiler_numpy_counts(monkeypatch: pytest.MonkeyPatch) -> None:
+    demand, actuators = demand_of(), synthetic_actuators(5)
+    expected = evaluate_actuators(demand, actuators, [Check.VOLTAGE]).positions.tolist()
+    monkeypatch.setattr(voltage_count, "KERNEL_PAYS_FROM", 0)
+    monkeypatch.delitem(sys.modules, "actuator_select.model.voltage_kernel", raising=False)
+    monkeypatch.setitem(sys.modules, "numba", None)
+    assert evaluate_actuators(demand, actuators, [Check.VOLTAGE]).positions.tolist() == expected
 
 
 @pytest.mark.parametrize("motion", [MOTION, SAMPLED, SAMPLED_CENTRIPETAL], ids=["ball", "samples", "centripetal"])
