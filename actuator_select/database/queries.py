@@ -24,6 +24,8 @@ class Column:
     ----------
     name : str
         As it appears in results, such as ``id`` or ``motor.rated_power_w``.
+    part : str
+        What it belongs to, such as ``motor``; it may stand before the name with a dot.
     field : Field
         What it holds.
     expression : sqlalchemy column
@@ -31,18 +33,22 @@ class Column:
     """
 
     name: str
+    part: str
     field: Field
-    expression: "sa.Column[Any]"
+    expression: sa.Column[Any]
 
 
 def columns_of(kind: Kind) -> tuple[Column, ...]:
     """Columns of a kind, own columns first; those of actuators include their parts'."""
-    table = TABLES[kind.name]
-    columns = [Column(name=field.name, field=field, expression=table.c[field.name]) for field in kind.columns]
+    columns = [
+        Column(name=field.name, part=kind.singular, field=field, expression=TABLES[kind.name].c[field.name])
+        for field in kind.columns
+    ]
     if kind is ACTUATORS:
         for role, part in ROLES.items():
+            table = TABLES[part.name]
             columns += [
-                Column(name=f"{role}.{field.name}", field=field, expression=TABLES[part.name].c[field.name])
+                Column(name=f"{role}.{field.name}", part=role, field=field, expression=table.c[field.name])
                 for field in part.columns
             ]
     return tuple(columns)
@@ -51,8 +57,8 @@ def columns_of(kind: Kind) -> tuple[Column, ...]:
 def fetch_rows(
     connection: sa.Connection,
     kind: Kind,
-    condition: "sa.ColumnElement[bool] | None" = None,
-    order: "Sequence[sa.ColumnElement[Any]]" = (),
+    condition: sa.ColumnElement[bool] | None = None,
+    order: Sequence[sa.ColumnElement[Any]] = (),
 ) -> list[Row]:
     """Rows that meet `condition`, in `order` and then by id."""
     columns = columns_of(kind)

@@ -7,11 +7,11 @@ import re
 from collections.abc import Callable, Mapping, Sequence
 from functools import cache
 from math import inf
-from typing import Any, TypeAlias
+from typing import Any, TypeAlias, cast
 
 import sqlalchemy as sa
 from lark import Lark, Token, Tree
-from lark.exceptions import UnexpectedCharacters, UnexpectedInput, UnexpectedToken
+from lark.exceptions import UnexpectedCharacters, UnexpectedToken
 
 from actuator_select.database.queries import Column
 from actuator_select.errors import InvalidExpression, did_you_mean
@@ -36,6 +36,7 @@ condition: either
 
 sort: key ("," key)*
 key: [MINUS] NAME
+names: NAME ("," NAME)*
 
 OR.3: /or(?![\w.])/i
 AND.3: /and(?![\w.])/i
@@ -77,7 +78,7 @@ _LONGEST = 20_000  # characters
 _DEEPEST = 40  # parentheses and nots; databases and Python both limit the depth of an expression
 _MOST_TESTS = 400  # ors and ands, for the same reason
 
-_COMPARISONS: Mapping[str, Callable[[Any, Any], Any]] = {
+_COMPARISONS: Mapping[str, Callable[[Any, Any], Condition]] = {
     "=": lambda left, right: left == right,
     "==": lambda left, right: left == right,
     "<>": lambda left, right: left != right,
@@ -111,8 +112,8 @@ def compile_condition(expression: str, columns: Sequence[Column]) -> Condition |
     """
     if not expression.strip():
         return None
-    tree = _parse(expression, "condition")
-    return _Compiler(expression, columns).condition(tree.children[0])
+    (test,) = _subtrees(_parse(expression, "condition"))
+    return _Compiler(expression, columns).condition(test)
 
 
 def compile_sort(expression: str, columns: Sequence[Column]) -> list[sa.ColumnElement[Any]]:
@@ -139,19 +140,44 @@ def compile_sort(expression: str, columns: Sequence[Column]) -> list[sa.ColumnEl
         return []
     compiler = _Compiler(expression, columns)
     order: list[sa.ColumnElement[Any]] = []
-    for key in _parse(expression, "sort").children:
-        minus, name = key.children
+    for key in _subtrees(_parse(expression, "sort")):
+        *minus, name = _tokens(key)
         column = compiler.column(name).expression
-        order += [column.is_(None), column.asc() if minus is None else column.desc()]
+        order += [column.is_(None), column.desc() if minus else column.asc()]
     return order
+
+
+def find_columns(expression: str, columns: Sequence[Column]) -> list[Column]:
+    """Look up a list of names.
+
+    Parameters
+    ----------
+    expression : str
+        Such as ``id, name, motor.rated_power_w``.
+    columns : sequence of Column
+        What it may name.
+
+    Returns
+    -------
+    list of Column
+        In the order of the names.
+
+    Raises
+    ------
+    InvalidExpression
+        Pointing at the word that cannot be understood.
+    """
+    compiler = _Compiler(expression, columns)
+    return [compiler.column(name) for name in _tokens(_parse(expression, "names"))]
 
 
 @cache
 def _parser() -> Lark:
-    return Lark(_GRAMMAR, parser="lalr", start=["condition", "sort"], maybe_placeholders=True)
+    return Lark(_GRAMMAR, parser="lalr", lexer="basic", start=["condition", "sort", "names"], maybe_placeholders=False)
 
 
-def _parse(expression: str, start: str) -> "Tree[Token]":
+def _parse(expression: str, start: str) -> Tree[Token]:
+    expression = _one_line(expression)
     if len(expression) > _LONGEST:
         raise InvalidExpression(expression[:60], 0, f"the expression is longer than {_LONGEST} characters")
     try:
@@ -159,14 +185,17 @@ def _parse(expression: str, start: str) -> "Tree[Token]":
         _limit(expression, tokens)
         return _parser().parse(expression, start=start)
     except UnexpectedCharacters as error:
-        position = error.pos_in_stream
+        position = cast("int", error.pos_in_stream)
         raise InvalidExpression(expression, position, _unreadable(expression[position:])) from error
     except UnexpectedToken as error:
         at_end = error.token.type == "$END"
-        position = len(expression.rstrip()) if at_end else error.token.start_pos
-        raise InvalidExpression(expression, position or 0, _unexpected(error)) from error
-    except UnexpectedInput as error:
-        raise InvalidExpression(expression, error.pos_in_stream or 0, "this cannot be understood") from error
+        position = len(expression.rstrip()) if at_end else _position(error.token)
+        raise InvalidExpression(expression, position, _unexpected(error)) from error
+
+
+def _one_line(expression: str) -> str:
+    """Blanks for line breaks and tabs, so that an error can point at a column."""
+    return "".join(char if char.isprintable() else " " for char in expression)
 
 
 def _limit(expression: str, tokens: Sequence[Token]) -> None:
@@ -174,21 +203,21 @@ def _limit(expression: str, tokens: Sequence[Token]) -> None:
     many = [token for token in tokens if token.type in {"OR", "AND"}]
     for found, most in ((deep, _DEEPEST), (many, _MOST_TESTS)):
         if len(found) > most:
-            token = found[most]
-            raise InvalidExpression(expression, token.start_pos or 0, f"more than {most} of '{token}' are too many")
+            message = f"more than {most} of '{found[most]}' are too many"
+            raise InvalidExpression(expression, _position(found[most]), message)
 
 
 def _unreadable(rest: str) -> str:
     if rest[0] in "'\"":
         return f"the text that begins here has no closing {rest[0]}"
     if re.match(r"[+-]?[\d.]+[\w%°]", rest):
-        return "a number is expected without its unit, which is that of the column"
+        return "this is no number; write it with a point and without its unit, which is that of the column"
     return f"the character {rest[0]!r} has no meaning here"
 
 
 def _unexpected(error: UnexpectedToken) -> str:
     token = error.token
-    if token.type == "COMMA" and token.start_pos is not None and "NAME" not in error.accepts:
+    if token.type == "COMMA":
         return "a comma has no meaning here; write decimals with a point, such as 0.5"
     if token.type == "COMPARISON" and "AND" in error.accepts:
         return "comparisons cannot be chained; write 'a < x and x < b' or 'x between a and b'"
@@ -201,36 +230,31 @@ class _Compiler:
     """Looks names up and checks types while a tree becomes an SQL expression."""
 
     def __init__(self, expression: str, columns: Sequence[Column]) -> None:
-        self._expression = expression
+        self._expression = _one_line(expression)
         self._columns = columns
 
     def column(self, token: Token) -> Column:
         """Column that a word names: its own name, an alias, or the last half of a joined name."""
         word = str(token).casefold()
-        own = [one for one in self._columns if "." not in one.name]
-        for found in (
-            [one for one in self._columns if word in _spellings(one)],
-            [one for one in own if word in _short_spellings(one)],
-            [one for one in self._columns if word in _short_spellings(one)],
-        ):
+        exact = [one for one in self._columns if word in _spellings(one)]
+        by_last_half = [one for one in self._columns if word in _short_spellings(one)]
+        for found in (exact, by_last_half):
             if len(found) == 1:
                 return found[0]
             if found:
                 names = ", ".join(one.name for one in found)
                 raise self._error(token, f"{token} is ambiguous; write one of {names}")
-        raise self._error(token, self._unknown(word))
+        raise self._error(token, self._unknown(str(token)))
 
-    def condition(self, node: "Token | Tree[Token]") -> Condition:
+    def condition(self, node: Tree[Token]) -> Condition:
         """Compile a test or several."""
-        assert isinstance(node, Tree)  # noqa: S101 - the grammar has no lone token where a condition stands
-        children = node.children
+        inner = _subtrees(node)
         if node.data == "either":
-            return sa.or_(*(self.condition(child) for child in children[::2]))
+            return sa.or_(*(self.condition(one) for one in inner))
         if node.data == "both":
-            return sa.and_(*(self.condition(child) for child in children[::2]))
+            return sa.and_(*(self.condition(one) for one in inner))
         if node.data == "not_":
-            return sa.not_(self.condition(children[1]))
-        tokens = [child for child in children if isinstance(child, Token)]
+            return sa.not_(self.condition(inner[0]))
         tests: dict[str, Callable[[list[Token]], Condition]] = {
             "comparison": self._comparison,
             "among": lambda tokens: self._among(tokens[0], tokens[2:]),
@@ -239,19 +263,16 @@ class _Compiler:
             "contains": self._contains,
             "state": self._state,
         }
-        return tests[node.data](tokens)
+        return tests[str(node.data)](_tokens(node))
 
     def _comparison(self, tokens: list[Token]) -> Condition:
         left, operator, right = tokens
         if left.type != "NAME" and right.type != "NAME":
             raise self._error(left, "a comparison needs a column on one of its sides")
         if left.type != "NAME":
-            result: Condition = _COMPARISONS[operator](self._value(left, right), self.column(right).expression)
-            return result
+            return _COMPARISONS[operator](self._value(left, right), self.column(right).expression)
         column = self.column(left)
-        other = self._other(right, column)
-        result = _COMPARISONS[operator](column.expression, other)
-        return result
+        return _COMPARISONS[operator](column.expression, self._other(right, column))
 
     def _other(self, token: Token, column: Column) -> Any:  # noqa: ANN401 - a column or a bound value
         if token.type != "NAME":
@@ -311,28 +332,38 @@ class _Compiler:
         return number
 
     def _unknown(self, word: str) -> str:
-        if word in {"nan", "null", "none"}:
+        if word.casefold() in {"nan", "null", "none"}:
             return f"{word} compares with nothing; write 'is unknown' or 'is known' after a column"
-        if word in {"inf", "infinity"}:
+        if word.casefold() in {"inf", "infinity"}:
             return f"{word} is no column; write 'is unlimited' after a column"
         names = [one.name for one in self._columns]
         last_halves = {name.rpartition(".")[2]: name for name in reversed(names)}
         known = [*names, *(half for half in last_halves if half not in names)]
-        hint = did_you_mean(word, known)
+        hint = did_you_mean(word.casefold(), known)
         if hint.startswith("known are"):
             hint = "`actuator-select catalog fields` lists the columns; a text stands in quotes"
         return f"there is no column {word}; {hint}"
 
     def _error(self, token: Token, message: str) -> InvalidExpression:
-        return InvalidExpression(self._expression, token.start_pos or 0, message)
+        return InvalidExpression(self._expression, _position(token), message)
+
+
+def _subtrees(tree: Tree[Token]) -> list[Tree[Token]]:
+    return [child for child in tree.children if isinstance(child, Tree)]
+
+
+def _tokens(tree: Tree[Token]) -> list[Token]:
+    return [child for child in tree.children if isinstance(child, Token)]
+
+
+def _position(token: Token) -> int:
+    position: int | None = token.start_pos
+    return 0 if position is None else position
 
 
 def _spellings(column: Column) -> set[str]:
-    prefix, dot, _ = column.name.rpartition(".")
-    if dot:
-        return {f"{prefix}.{name}" for name in _short_spellings(column)}
-    # The own columns of the kind may be written with its name, too.
-    return {column.name}
+    qualified = {f"{column.part}.{name}" for name in _short_spellings(column)}
+    return qualified if "." in column.name else qualified | _short_spellings(column)
 
 
 def _short_spellings(column: Column) -> set[str]:

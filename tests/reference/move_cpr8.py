@@ -1,5 +1,20 @@
 """The simulated move of section 3.1.3 in [1] of scalar_cpr8, one instant at a time in plain floats."""
 
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from tests.reference.scalar_cpr8 import (
+    Actuator,
+    Case,
+    Vector,
+    bend_of,
+    dot,
+    half_diagonal,
+    pose_at,
+    tensions_at,
+)
+
 
 @dataclass(frozen=True, slots=True)
 class Instant:
@@ -36,8 +51,11 @@ def _trapezoid(case: Case, distance: float, steps: int) -> Iterator[tuple[float,
         covered += speed * duration + acceleration * duration * duration / 2.0
 
 
-def simulate(case: Case, actuator: Actuator, start: Vector, end: Vector, steps: int = 200) -> list[Instant]:
-    """A straight move at constant orientation with `steps` intervals in each phase of its trapezoidal speed."""
+def simulate(case: Case, actuator: Actuator, start: Vector, end: Vector, steps: int = 1000) -> list[Instant]:
+    """A straight move at constant orientation with `steps` intervals in each phase of its trapezoidal speed.
+
+    The torque peaks between two instants, so a coarse move understates it: by 5e-6 N m at 200 steps, 3e-7 at 1000.
+    """
     distance = math.dist(start, end)
     way = tuple((b - a) / distance for a, b in zip(start, end, strict=True))
     radius = actuator.radius_m
@@ -51,8 +69,8 @@ def simulate(case: Case, actuator: Actuator, start: Vector, end: Vector, steps: 
         pose = pose_at(case, position)
         speeds = [dot(u, velocity) / radius for u in pose.directions]
         accelerations = [
-            (dot(u, acceleration) + bend_of(case, u, length, velocity)) / radius
-            for u, length in zip(pose.directions, pose.lengths, strict=True)
+            (dot(u, acceleration) + bend_of(case, turn * radius, speed * speed, length)) / radius
+            for u, length, turn in zip(pose.directions, pose.lengths, speeds, strict=True)
         ]
         torques = [tension * radius for tension in tensions_at(case, pose, acceleration)]
         voltages = [
