@@ -51,7 +51,7 @@ class LazyGroup(click.Group):
 @click.group(cls=LazyGroup, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110})
 @click.version_option(__version__, prog_name="actuator-select")
 def command() -> None:
-    r"""Choose motors, gearboxes and winches for cable-driven robots.
+    """Choose motors, gearboxes and winches for cable-driven robots.
 
     \b
     Start with the paper's case study:

@@ -33,7 +33,7 @@ def opened(database: str | None) -> "Iterator[Catalogue]":
 
 @click.group("catalog")
 def command() -> None:
-    r"""Query, extend and check the catalogue of motors, gearboxes, winches, ropes and actuators.
+    """Query, extend and check the catalogue of motors, gearboxes, winches, ropes and actuators.
 
     An actuator is a named assembly of a motor, a gearbox (or none) and a winch. Every figure has its unit in the
     column's name (rated_torque_nm: N m) and every row the source that states it. Unknown, unlimited and zero differ:
@@ -65,7 +65,7 @@ def command() -> None:
 def list_rows(
     kind: str, where: str, sort: str, columns: str, limit: int | None, output_format: str, database: str | None
 ) -> None:
-    r"""List rows of one KIND: sources, motors, gearboxes, winches, ropes or actuators.
+    """List rows of one KIND: sources, motors, gearboxes, winches, ropes or actuators.
 
     Actuators can be filtered, sorted and shown by the columns of their parts: motor.rated_power_w, gearbox.ratio,
     winch.drum_radius_mm. The bare name does where it is unique. CSV and JSON give every column.
@@ -112,7 +112,7 @@ def list_rows(
 @options.format_option("table", "json")
 @options.database_option
 def show(row_id: str, kind: str | None, output_format: str, database: str | None) -> None:
-    r"""Show everything that is known of one row: figures, source, plausibility findings, and an actuator's parts.
+    """Show everything that is known of one row: figures, source, plausibility findings, and an actuator's parts.
 
     ID is the row's id; an actuator's name does as well.
 
@@ -156,7 +156,7 @@ def show(row_id: str, kind: str | None, output_format: str, database: str | None
 @click.option("--update", is_flag=True, help="Change rows that exist; columns that the file leaves out stay.")
 @options.database_option
 def import_file(file: Path, kind: str | None, dry_run: bool, update: bool, database: str | None) -> None:
-    r"""Take in a CSV file: all of it, or nothing and a list of every bad cell.
+    """Take in a CSV file: all of it, or nothing and a list of every bad cell.
 
     The file is UTF-8 with commas between cells and a header of column names; `actuator-select catalog fields KIND`
     lists them with their units and ranges, `actuator-select catalog export KIND` writes a file to start from. Write
@@ -196,7 +196,7 @@ def import_file(file: Path, kind: str | None, dry_run: bool, update: bool, datab
 )
 @options.database_option
 def export(kind: str | None, output: Path | None, database: str | None) -> None:
-    r"""Write rows as CSV that `catalog import` reads back exactly.
+    """Write rows as CSV that `catalog import` reads back exactly.
 
     \b
     Examples:
@@ -229,7 +229,7 @@ def export(kind: str | None, output: Path | None, database: str | None) -> None:
 @options.format_option("table", "json")
 @options.database_option
 def check(kind: str | None, output_format: str, database: str | None) -> None:
-    r"""Check that every row agrees with itself: power = torque × speed, back-EMF = torque constant, and so on.
+    """Check that every row agrees with itself: power = torque × speed, back-EMF = torque constant, and so on.
 
     A finding is a warning: the figure may be right and the rule too simple. The exit status is 0 also with findings.
 
@@ -271,7 +271,7 @@ def check(kind: str | None, output_format: str, database: str | None) -> None:
 @kind_argument
 @options.format_option("table", "json")
 def fields(kind: str, output_format: str) -> None:
-    r"""List the columns of one KIND: name, what may stand there, unit, meaning.
+    """List the columns of one KIND: name, what may stand there, unit, meaning.
 
     \b
     Example:

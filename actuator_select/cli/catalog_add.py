@@ -21,7 +21,7 @@ _SOURCE_PREFIX = "source."
 @click.argument("fields", nargs=-1, metavar="[FIELD=VALUE]...")
 @options.database_option
 def add(kind: str, fields: tuple[str, ...], database: str | None) -> None:
-    r"""Add one row: FIELD=VALUE on the command line, or without fields, question by question.
+    """Add one row: FIELD=VALUE on the command line, or without fields, question by question.
 
     KIND is source, motor, gearbox, winch, rope or actuator. Units are those of the field's name; `actuator-select
     catalog fields KIND` lists all fields with their ranges. What is left out or empty is unknown. Every row names its

@@ -37,7 +37,7 @@ def emit_table(
     from rich.table import Table
     from rich.text import Text
 
-    table = Table(title=title, box=box.SIMPLE_HEAD, title_justify="left", pad_edge=False)
+    table = Table(title=title, box=box.SIMPLE_HEAD, title_justify="left", pad_edge=False, show_header=any(header))
     for index, name in enumerate(header):
         table.add_column(Text(name), justify="right" if index in right else "left", overflow="fold")
     for row in rows:

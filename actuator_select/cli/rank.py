@@ -32,7 +32,7 @@ def command(
     output_format: str,
     database: str | None,
 ) -> None:
-    r"""Rank actuators by the share of the workspace that they can serve.
+    """Rank actuators by the share of the workspace that they can serve.
 
     STUDY is a built-in study (see `actuator-select study list`) or a TOML file.
 

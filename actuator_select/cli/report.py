@@ -38,7 +38,7 @@ def command(
     revision: str,
     database: str | None,
 ) -> None:
-    r"""Write the design report, one self-contained HTML file.
+    """Write the design report, one self-contained HTML file.
 
     Prints the ranking, then the path of the report.
 

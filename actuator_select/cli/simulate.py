@@ -62,7 +62,7 @@ def command(
     output_format: str,
     database: str | None,
 ) -> None:
-    r"""Drive one actuator along a straight line and show its limits.
+    """Drive one actuator along a straight line and show its limits.
 
     ACTUATOR is the id or the name of a catalogue actuator; every cable has one of it. The move starts and ends at
     rest, with the study's greatest speed and ramp times; a short move keeps the accelerations and peaks below.

@@ -9,6 +9,7 @@ from actuator_select.model.dynamics import required_wrench
 from actuator_select.model.kinematics import position_grid
 from actuator_select.model.motion import independent_motion
 from actuator_select.model.robot import cpr8, cpr8_region
+from tests.benchmarks.plain_numpy import worst_voltage
 
 FRAME, CARRIER = np.array([3.2, 2.2, 2.2]), np.array([0.224, 0.154, 0.140])
 
@@ -62,8 +63,6 @@ def synthetic_actuators(demand: Demand, count: int, seed: int = 2018) -> Actuato
 
 def _voltages(demand: Demand, draft: ActuatorSet, generator: np.random.Generator) -> FloatArray:
     """A voltage per actuator that a random 20 to 80 % of a sample of the positions stay within."""
-    from plain_numpy import worst_voltage
-
     sample = generator.choice(len(demand.positions), size=min(500, len(demand.positions)), replace=False)
     small = Demand(
         **{

@@ -1,4 +1,4 @@
-"""Measure what the design promises, as ratios in one run: ``python tests/benchmarks/run.py``."""
+"""Measure what the design promises, as ratios in one run: ``python -m tests.benchmarks.run``."""
 
 import statistics
 import subprocess
@@ -8,9 +8,6 @@ from collections.abc import Callable
 from resource import RUSAGE_SELF, getrusage
 
 import numpy as np
-import plain_numpy
-from cases import large_demand, synthetic_actuators
-from scalar_paper import TABLE_1, Case, passes, positions
 
 from actuator_select.model.actuation import Check
 from actuator_select.model.components import ActuatorSet
@@ -21,6 +18,10 @@ from actuator_select.model.kinematics import position_grid
 from actuator_select.model.motion import sampled_motion
 from actuator_select.model.robot import cpr8, cpr8_region
 from actuator_select.units import kg_m2, rad_per_s
+from tests.benchmarks import plain_numpy
+from tests.benchmarks.cases import large_demand, synthetic_actuators
+from tests.benchmarks.paper_loops import passes
+from tests.reference.scalar_cpr8 import TABLE_1, Case, pose_grid
 
 SCALAR_SLICE = 12  # poses that the scalar loops are timed on; scaled to all
 PLAIN_SLICE = 40  # actuators that the plain evaluation is timed on; scaled to all
@@ -42,17 +43,17 @@ def table_1() -> ActuatorSet:
     return ActuatorSet.from_figures(
         [
             {
-                "motor_speed": rad_per_s(drive.rpm),
-                "motor_torque": drive.torque,
-                "voltage": drive.voltage,
-                "back_emf_constant": drive.back_emf,
-                "torque_constant": drive.torque_constant,
-                "resistance": drive.resistance,
+                "motor_speed": rad_per_s(drive.speed_rpm),
+                "motor_torque": drive.torque_nm,
+                "voltage": drive.voltage_v,
+                "back_emf_constant": drive.back_emf_v_s_per_rad,
+                "torque_constant": drive.torque_constant_nm_per_a,
+                "resistance": drive.resistance_ohm,
                 "friction": 0.0,
                 "rotor_inertia": kg_m2(drive.inertia_g_cm2),
                 "ratio": drive.ratio,
                 "efficiency": drive.efficiency,
-                "drum_radius": drive.radius,
+                "drum_radius": drive.radius_m,
             }
             for drive in TABLE_1
         ]
@@ -61,7 +62,7 @@ def table_1() -> ActuatorSet:
 
 def against_the_scalar_loops() -> None:
     """(a) The sampled set, five actuators, all four checks."""
-    case = Case()
+    case = Case(centripetal=False)
     frame, carrier = np.array(case.frame), np.array(case.carrier)
     actuators = table_1()
     grid = position_grid(cpr8_region(frame, carrier), (6, 6, 6))
@@ -72,15 +73,14 @@ def against_the_scalar_loops() -> None:
         return evaluate_actuators(demand, actuators, list(Check)).positions
 
     # Every motion is evaluated where a pose passes; those are what the paper's loops cost.
-    every = list(positions(case))
-    checks = frozenset(check.value for check in Check)
+    every = pose_grid(case)
     passing = [
         (drive, position)
         for drive in TABLE_1[:3]
         for position in every[:: len(every) // SCALAR_SLICE]
-        if passes(case, drive, position, checks)
+        if passes(case, drive, position)
     ]
-    scalar = best_of(1, lambda: [passes(case, drive, position, checks) for drive, position in passing])
+    scalar = best_of(3, lambda: [passes(case, drive, position) for drive, position in passing])
     scalar *= len(every) * len(TABLE_1) / len(passing)
     fast = best_of(200, ours)
     print(
