@@ -10,7 +10,7 @@ from actuator_select.model.dynamics import RequiredWrench
 from actuator_select.model.kinematics import cable_geometry
 from actuator_select.model.motion import MotionKind, MotionSet
 from actuator_select.model.robot import CableRobot
-from actuator_select.model.tension import full_rank, pseudo_inverse_tensions, unbalanced
+from actuator_select.model.tension import pseudo_inverse_tensions, unbalanced
 
 NEGATIVE_TENSION_TOLERANCE = 1e-9  # relative to the largest static tension of all poses
 POSES_AT_ONCE = 4096  # keeps the factorisation's scratch arrays in a few megabytes
@@ -135,7 +135,7 @@ def compute_demand(
         motion=motion,
         negative_at_rest=(static < -tolerance).any(axis=1),
         negative_in_motion=(slack < -tolerance).any(axis=1),
-        rank_deficient=arrays["rank"] < full_rank(robot.cables),
+        rank_deficient=arrays["rank"] < robot.full_rank,
         **arrays,
     )
 

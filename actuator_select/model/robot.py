@@ -39,6 +39,12 @@ class CableRobot:
         """Number of cables m."""
         return len(self.frame_anchors)
 
+    @property
+    def full_rank(self) -> int:
+        """Greatest rank that its structure matrix can have: a point mass takes forces only, a body six components."""
+        components = 6 if self.platform_anchors.any() else 3
+        return min(components, self.cables)
+
 
 def cpr8(frame: FloatArray, carrier: FloatArray) -> CableRobot:
     """Eight-cable robot CPR-8: a box-shaped carrier hung by its vertices inside a box-shaped frame.

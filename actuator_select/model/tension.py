@@ -80,11 +80,6 @@ def pseudo_inverse_tensions(structure_matrix: FloatArray, wrench: RequiredWrench
     )
 
 
-def full_rank(cables: int) -> int:
-    """Greatest rank that the structure matrix of a spatial robot with so many cables can have."""
-    return min(6, cables)
-
-
 def unbalanced(
     tensions: CableTensions, wrench: RequiredWrench, acceleration_lower: FloatArray, acceleration_upper: FloatArray
 ) -> BoolArray:

@@ -19,6 +19,7 @@ from actuator_select.study import Study
 PANELS_PER_ROW = 3
 TITLE_WIDTH = 40  # characters of a panel's title in one line
 NAME_WIDTH = 40  # characters of an actuator's name beside its bar
+FULL_WIDTH = 7.5  # inches
 LEVELS = 4  # slices of one actuator
 UTILISATION_SHOWN = 2.0  # colours saturate there
 
@@ -111,7 +112,10 @@ def _workspace(axes: Axes3D, study: Study, feasible: BoolArray) -> None:
     axes.set_ylabel("y [m]", labelpad=-4)
     axes.set_zlabel("z [m]", labelpad=-5)
     axes.tick_params(labelsize=6.5, pad=-2)
-    axes.set_box_aspect(np.maximum(np.ptp(np.vstack([positions, study.robot.frame_anchors]), axis=0), 1e-3), zoom=0.86)
+    extent = np.vstack([positions, study.robot.frame_anchors])
+    low, high = extent.min(axis=0), np.maximum(extent.max(axis=0), extent.min(axis=0) + 1e-3)
+    axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), zlim=(low[2], high[2]))
+    axes.set_box_aspect(high - low, zoom=0.86)
     axes.view_init(elev=22.0, azim=-58.0)
 
 
@@ -148,8 +152,12 @@ def slice_panels(study: Study, detail: ActuatorDetail) -> Figure:
     edges = [_edges(study.region[other], grid[other]) for other in (first, second)]
     width, height = (float(edge[-1] - edge[0]) for edge in edges)
     panel = 1.7 * np.clip(height / width, 0.4, 1.6)
-    figure = new_figure(1.65 * len(levels) + 0.9, 2.0 * panel + 1.2)
-    panels = figure.subplots(2, len(levels), squeeze=False, sharex=True, sharey=True)
+    # One slice alone stands beside its twin, not above it.
+    rows = 1 if len(levels) == 1 else 2
+    figure = new_figure(FULL_WIDTH, rows * panel * (2.0 if rows == 1 else 1.0) + 1.2)
+    panels = np.reshape(
+        figure.subplots(rows, 2 * len(levels) // rows, squeeze=False, sharex=True, sharey=True), (2, len(levels))
+    )
     colours = [CHECK_COLOURS[check] for check in detail.checks]
     norm = TwoSlopeNorm(vcenter=1.0, vmin=0.0, vmax=UTILISATION_SHOWN)
     shaded = None

@@ -87,3 +87,11 @@ def test_anchors_that_do_not_match_are_refused() -> None:
         CableRobot(frame_anchors=np.zeros((4, 3)), platform_anchors=np.zeros((3, 3)))
     with pytest.raises(ValueError, match="finite"):
         CableRobot(frame_anchors=np.full((1, 3), np.nan), platform_anchors=np.zeros((1, 3)))
+
+
+def test_a_point_mass_has_full_rank_with_three_independent_cables() -> None:
+    anchors = np.array([[0.0, 0.0, 2.0], [3.0, 0.0, 2.0], [3.0, 2.0, 2.0], [0.0, 2.0, 2.0]])
+    assert CableRobot(frame_anchors=anchors, platform_anchors=np.zeros((4, 3))).full_rank == 3
+    assert CableRobot(frame_anchors=anchors, platform_anchors=0.1 * anchors).full_rank == 4
+    assert CableRobot(frame_anchors=anchors[:2], platform_anchors=np.zeros((2, 3))).full_rank == 2
+    assert cpr8(FRAME, CARRIER).full_rank == 6
