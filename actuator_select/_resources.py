@@ -40,11 +40,28 @@ def user_data_dir() -> Path:
     return user_data_path("actuator-select", appauthor=False)
 
 
-def user_cache_dir() -> Path:
-    """Folder of what can be made again, by the platform's convention."""
+def writable_cache_dir(name: str) -> Path:
+    """Folder for what can be made again, by the platform's convention; a temporary one where that cannot be written.
+
+    Parameters
+    ----------
+    name : str
+        Of the folder inside the program's cache.
+
+    Returns
+    -------
+    Path
+        An existing folder.
+    """
     from platformdirs import user_cache_path
 
-    return user_cache_path("actuator-select", appauthor=False)
+    folder = user_cache_path("actuator-select", appauthor=False) / name
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=folder):
+            return folder
+    except OSError:
+        return Path(tempfile.mkdtemp(prefix="actuator-select-"))
 
 
 def replace_atomically(path: Path, content: str | bytes) -> None:

@@ -60,8 +60,7 @@ def command(
         _emit_csv(selection, only_meeting=only_meeting)
     else:
         print_ranking(selection, only_meeting=only_meeting)
-        if selection.study.name == study:
-            console.say(f"Next: actuator-select report {study} --output {study}.html")
+        console.say(f"Next: actuator-select report {study}{' with the same --set' if overrides else ''}")
 
 
 def shown(selection: "Selection", *, only_meeting: bool) -> "list[RankedActuator]":

@@ -14,12 +14,12 @@ from itertools import pairwise
 
 import numpy as np
 
-from actuator_select._resources import user_cache_dir
+from actuator_select._resources import writable_cache_dir
 from actuator_select.model.actuation import VoltageLine
 from actuator_select.model.arrays import BoolArray, FloatArray
 from actuator_select.model.voltage import Tally, VoltageDemand
 
-os.environ.setdefault("NUMBA_CACHE_DIR", str(user_cache_dir() / "kernels"))
+os.environ.setdefault("NUMBA_CACHE_DIR", str(writable_cache_dir("kernels")))
 from numba import njit  # reads its cache folder when it is imported
 
 KNOTS = 48  # masses at which the bounds are tabulated; more are tighter and cost as many evaluations per position

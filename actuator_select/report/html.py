@@ -66,9 +66,11 @@ def render_report(selection: Selection, catalogue: Catalogue, details: ReportDet
 
     Examples
     --------
-    >>> catalogue = open_catalogue()
-    >>> selection = rank(load_study("cpr8"), catalogue)
-    >>> page = render_report(selection, catalogue, ReportDetails(generated_at=datetime.now()))
+    >>> with open_catalogue() as catalogue:
+    ...     selection = rank(load_study("cpr8"), catalogue)
+    ...     page = render_report(selection, catalogue, ReportDetails(generated_at=datetime.now()))
+    >>> page[:15]
+    '<!doctype html>'
     """
     dossier = build_dossier(selection, catalogue)
     environment = Environment(

@@ -210,7 +210,8 @@ def evaluate(
 
     Examples
     --------
-    >>> result = evaluate(load_study("cpr8"), open_catalogue())
+    >>> with open_catalogue() as catalogue:
+    ...     result = evaluate(load_study("cpr8"), catalogue)
     >>> result.evaluation.demand.force.shape  # worst cable force, poses × cables
     (216, 8)
     """
@@ -263,7 +264,8 @@ def rank(
 
     Examples
     --------
-    >>> selection = rank(load_study("cpr8"), open_catalogue())
+    >>> with open_catalogue() as catalogue:
+    ...     selection = rank(load_study("cpr8"), catalogue)
     >>> [(actuator.name, actuator.feasible_poses) for actuator in selection.ranked][:2]
     [('Actuator 1', 200), ('Actuator 3', 184)]
     """

@@ -156,8 +156,9 @@ def simulate(
 
     Examples
     --------
-    >>> run = simulate(load_study("cpr8"), open_catalogue(), "Actuator 1", start=(0.153, 0.153, -0.153),
-    ...                stop=(3.047, 0.153, -0.153), orientation=(0.5, 0.5, 0.5))
+    >>> ends = {"start": (0.153, 0.153, -0.153), "stop": (3.047, 0.153, -0.153)}
+    >>> with open_catalogue() as catalogue:
+    ...     run = simulate(load_study("cpr8"), catalogue, "Actuator 1", **ends, orientation=(0.5, 0.5, 0.5))
     >>> sorted({exceedance.actuator for exceedance in run.exceedances if exceedance.check == "torque"})
     [1, 3, 8]
     """

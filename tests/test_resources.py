@@ -1,0 +1,49 @@
+"""Folders and files of the program and its user."""
+
+from pathlib import Path
+
+import pytest
+
+from actuator_select._resources import replace_atomically, shipped_dir, writable_cache_dir
+from actuator_select.errors import OutputNotWritable
+
+
+def test_shipped_folders_are_found() -> None:
+    assert (shipped_dir("catalog") / "actuators.csv").is_file()
+    assert (shipped_dir("migrations") / "env.py").is_file()
+    with pytest.raises(FileNotFoundError, match="install actuator-select again"):
+        shipped_dir("nonsense")
+
+
+def test_a_cache_that_cannot_be_made_is_replaced_by_a_temporary_one(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    blocked = tmp_path / "file"
+    blocked.write_text("not a folder", encoding="utf-8")
+    monkeypatch.setenv("XDG_CACHE_HOME", str(blocked))
+    folder = writable_cache_dir("kernels")
+    assert folder.is_dir()
+    assert blocked not in folder.parents
+    folder.rmdir()
+
+
+def test_a_file_is_replaced_whole(tmp_path: Path) -> None:
+    path = tmp_path / "report.html"
+    replace_atomically(path, "one")
+    replace_atomically(path, "zwei äöü")
+    assert path.read_text(encoding="utf-8") == "zwei äöü"
+    assert [file.name for file in tmp_path.iterdir()] == ["report.html"]
+
+
+def test_a_failed_write_leaves_the_old_file_and_nothing_else(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    path = tmp_path / "report.html"
+    replace_atomically(path, "old")
+
+    def full(*_: object) -> None:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(Path, "replace", full)
+    with pytest.raises(OutputNotWritable, match="No space left on device; choose a file"):
+        replace_atomically(path, "new")
+    assert path.read_text(encoding="utf-8") == "old"
+    assert [file.name for file in tmp_path.iterdir()] == ["report.html"]
