@@ -117,10 +117,10 @@ def print_simulation(run: "Simulation") -> None:
     click.echo(move_words(run))
     header = ["cable", *(f"|{check.value}| [{UNITS[check]}]" for check in Check)]
     rows = [
-        [str(cable + 1), *(f"{run.peaks[check][cable]:.5g}" for check in Check)]
+        [str(cable + 1), *(_cell(run.peaks[check][cable]) for check in Check)]
         for cable in range(run.study.robot.cables)
     ]
-    rows.append(["limit", *(f"{run.limits[check]:.5g}" for check in Check)])
+    rows.append(["limit", *(_cell(run.limits[check]) for check in Check)])
     console.emit_table(header, rows, right=range(1, 5))
     click.echo("Largest magnitudes at the shaft behind the gearbox (voltage at the motor's terminals).")
     if run.exceedances:
@@ -130,3 +130,8 @@ def print_simulation(run: "Simulation") -> None:
         click.echo("Every limit that could be evaluated holds over the whole move.")
     if run.pushing:
         console.warn(pushing_words(run))
+
+
+def _cell(value: float) -> str:
+    """A number of a table; an unknown one is a dash."""
+    return "–" if value != value else f"{value:.5g}"  # noqa: PLR0124 - only NaN differs from itself

@@ -4,11 +4,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from actuator_select.model.actuation import Check, shaft_characteristics, torque_ratio
+from actuator_select.model.actuation import (
+    Check,
+    cable_acceleration_limit,
+    cable_force_limit,
+    cable_speed_limit,
+    shaft_characteristics,
+)
 from actuator_select.model.arrays import FloatArray, IntArray
 from actuator_select.model.components import ActuatorSet
 from actuator_select.model.dynamics import RequiredWrench
-from actuator_select.model.kinematics import cable_geometry
+from actuator_select.model.kinematics import cable_geometry, rotation_matrix
 from actuator_select.model.robot import CableRobot
 from actuator_select.model.tension import pseudo_inverse_tensions
 
@@ -166,77 +172,90 @@ def shaft_limits(actuator: ActuatorSet) -> dict[Check, float]:
     dict of Check to float
         [rad/s, N m, rad/s², V]
     """
-    torque = actuator.motor_torque * torque_ratio(actuator)
-    inertia = actuator.rotor_inertia * actuator.ratio
-    with np.errstate(divide="ignore"):
-        acceleration = actuator.motor_torque / inertia
+    radius = actuator.drum_radius
     return {
-        Check.SPEED: float((actuator.motor_speed / actuator.ratio)[0]),
-        Check.TORQUE: float(torque[0]),
-        Check.ACCELERATION: float(acceleration[0]),
+        Check.SPEED: float((cable_speed_limit(actuator) / radius)[0]),
+        Check.TORQUE: float((cable_force_limit(actuator) * radius)[0]),
+        Check.ACCELERATION: float((cable_acceleration_limit(actuator) / radius)[0]),
         Check.VOLTAGE: float(actuator.voltage[0]),
     }
 
 
-def drive_history(
-    robot: CableRobot,
-    wrench: RequiredWrench,
-    move: LineMove,
-    actuator: ActuatorSet,
-    times: FloatArray,
-    phases: IntArray,
-) -> DriveHistory:
-    """Shaft speed, acceleration, torque and voltage of every actuator, from exact derivatives.
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DrivenMove:
+    """A move of a robot whose every cable has the same actuator.
 
-    Parameters
+    Attributes
     ----------
     robot : CableRobot
         With m cables.
     wrench : RequiredWrench
         What the cables must supply together.
     move : LineMove
-        The motion.
+        The motion; see `least_lengths` for moves that touch an anchor.
     actuator : ActuatorSet
-        A single one, the same on every cable.
-    times, phases : (S,) array
-        Instants [s], and from which phase's side each is taken.
-
-    Returns
-    -------
-    DriveHistory
-        Under the pseudo-inverse tension model.
-
-    References
-    ----------
-    Eqs. 18-22 in Filipović & Kevac 2018, doi:10.22190/FUACR1802071F.
+        A single one.
     """
-    way, speed, acceleration = np.empty_like(times), np.empty_like(times), np.empty_like(times)
-    for phase in range(3):
-        chosen = phases == phase
-        way[chosen], speed[chosen], acceleration[chosen] = move.profile.motion(times[chosen], phase)
-    line = (move.stop - move.start) / move.profile.distance
-    geometry = cable_geometry(robot, move.start + way[:, None] * line, move.orientation)
-    tensions = pseudo_inverse_tensions(geometry.structure_matrix, wrench)
-    tension = tensions.static + tensions.per_acceleration @ line * acceleration[:, None]
-    along = geometry.directions @ line  # cosine between cable and line
-    cable_speed = along * speed[:, None]
-    cable_acceleration = along * acceleration[:, None]
-    if move.centripetal:
-        cable_acceleration = cable_acceleration - (speed[:, None] ** 2 - cable_speed**2) / geometry.lengths
-    radius = float(actuator.drum_radius[0])
-    shaft_speed, shaft_acceleration, torque = cable_speed / radius, cable_acceleration / radius, tension * radius
-    shaft = shaft_characteristics(actuator)
-    return DriveHistory(
-        times=times,
-        phases=phases,
-        tension=tension,
-        speed=shaft_speed,
-        acceleration=shaft_acceleration,
-        torque=torque,
-        voltage=shaft.inertia_gain * shaft_acceleration
-        + shaft.damping_gain * shaft_speed
-        + shaft.load_gain * torque,  # eq. 21
-    )
+
+    robot: CableRobot
+    wrench: RequiredWrench
+    move: LineMove
+    actuator: ActuatorSet
+
+    def least_lengths(self) -> FloatArray:
+        """Shortest length of every cable over the move, (m,). [m]."""
+        arms = self.robot.platform_anchors @ rotation_matrix(self.move.orientation).T
+        ends = self.robot.frame_anchors - arms  # where the platform's origin would be with a cable of no length
+        line = self.move.stop - self.move.start
+        along = np.clip((ends - self.move.start) @ line / (line @ line), 0.0, 1.0)
+        least: FloatArray = np.linalg.norm(ends - self.move.start - along[:, None] * line, axis=1)
+        return least
+
+    def history(self, times: FloatArray, phases: IntArray) -> DriveHistory:
+        """Shaft speed, acceleration, torque and voltage of every actuator, from exact derivatives.
+
+        Parameters
+        ----------
+        times, phases : (S,) array
+            Instants [s], and from which phase's side each is taken.
+
+        Returns
+        -------
+        DriveHistory
+            Under the pseudo-inverse tension model; NaN where a figure is unknown.
+
+        References
+        ----------
+        Eqs. 18-22 in Filipović & Kevac 2018, doi:10.22190/FUACR1802071F.
+        """
+        move, actuator = self.move, self.actuator
+        way, speed, acceleration = np.empty_like(times), np.empty_like(times), np.empty_like(times)
+        for phase in range(3):
+            chosen = phases == phase
+            way[chosen], speed[chosen], acceleration[chosen] = move.profile.motion(times[chosen], phase)
+        line = (move.stop - move.start) / move.profile.distance
+        geometry = cable_geometry(self.robot, move.start + way[:, None] * line, move.orientation)
+        tensions = pseudo_inverse_tensions(geometry.structure_matrix, self.wrench)
+        tension = tensions.static + tensions.per_acceleration @ line * acceleration[:, None]
+        along = geometry.directions @ line  # cosine between cable and line
+        cable_speed = along * speed[:, None]
+        cable_acceleration = along * acceleration[:, None]
+        if move.centripetal:
+            cable_acceleration = cable_acceleration - (speed[:, None] ** 2 - cable_speed**2) / geometry.lengths
+        radius = float(actuator.drum_radius[0])
+        shaft_speed, shaft_acceleration, torque = cable_speed / radius, cable_acceleration / radius, tension * radius
+        shaft = shaft_characteristics(actuator)
+        return DriveHistory(
+            times=times,
+            phases=phases,
+            tension=tension,
+            speed=shaft_speed,
+            acceleration=shaft_acceleration,
+            torque=torque,
+            voltage=shaft.inertia_gain * shaft_acceleration
+            + shaft.damping_gain * shaft_speed
+            + shaft.load_gain * torque,  # eq. 21
+        )
 
 
 def instants(profile: TrapezoidalProfile, per_phase: int) -> tuple[FloatArray, IntArray]:

@@ -93,7 +93,10 @@ class VoltageCounter:
     def worst_utilisation(self) -> FloatArray:
         """Largest |u|/U, (C,)."""
         result = np.full(self._actuators, np.nan)
-        result[self._known] = self._tally.worst / self._line.force_limit
+        with np.errstate(invalid="ignore"):
+            utilisation = self._tally.worst / self._line.force_limit
+        # A position without a defined demand is beyond any limit, an unlimited one too.
+        result[self._known] = np.where(np.isinf(self._tally.worst), np.inf, utilisation)
         return result
 
     @property
@@ -112,7 +115,7 @@ def _kernel(rows: VoltageDemand, actuators: int) -> Kernel:
         return count_with_numpy
     try:
         from actuator_select.model.voltage_kernel import count
-    except ImportError:
+    except (ImportError, RuntimeError):  # not installed, or no folder to keep its code in
         return count_with_numpy
     return count
 
@@ -132,7 +135,7 @@ def count_with_numpy(rows: VoltageDemand, line: VoltageLine, others: BoolArray, 
         Updated in place.
     """
     demand = rows.worst(line)
-    holds = demand <= tally.limit[:, None]
+    holds = (demand <= tally.limit[:, None]) & np.isfinite(demand)
     tally.alone[:] += holds.sum(axis=1)
     tally.joint[:] += (holds & others).sum(axis=1)
     where = demand.argmax(axis=1)

@@ -23,6 +23,9 @@ os.environ.setdefault("NUMBA_CACHE_DIR", str(writable_cache_dir("kernels")))
 from numba import njit  # reads its cache folder when it is imported
 
 KNOTS = 48  # masses at which the bounds are tabulated; more are tighter and cost as many evaluations per position
+KNOT_SPACING = 1e-6  # relative to the greatest mass; far above rounding, far below what bounds need
+SMALLEST_MASS = 1e-9  # kg; keeps the spacing above zero where every rotor is without inertia
+DOUBT = 1e-9  # relative; a lower bound rejects only where it exceeds the limit by more than its own rounding
 POSITIONS_AT_ONCE = 512  # positions whose bounds stay in a core's cache while all actuators pass over them
 
 
@@ -74,9 +77,15 @@ def _parts(count: int, workers: int) -> list[slice]:
 
 
 def _knots(masses: FloatArray) -> FloatArray:
-    """Masses for the table: at least two, the least and the greatest among them."""
-    knots = np.unique(np.quantile(masses, np.linspace(0.0, 1.0, KNOTS)))
-    return knots if len(knots) > 1 else np.array([knots[0], knots[0] + 1.0])
+    """Masses for the table: at least two, the least and the greatest among them, none close to another.
+
+    Between masses that differ by rounding alone, a chord's slope would be rounding noise over almost nothing.
+    """
+    spacing = KNOT_SPACING * max(float(masses.max()), SMALLEST_MASS)
+    least, greatest = float(masses.min()), float(masses.max())
+    inner = np.unique(np.round(np.quantile(masses, np.linspace(0.0, 1.0, KNOTS)) / spacing)) * spacing
+    inner = inner[(inner > least + spacing) & (inner < greatest - spacing)]
+    return np.concatenate([[least], inner, [max(greatest, least + spacing)]])
 
 
 def _pack(rows: VoltageDemand) -> FloatArray:
@@ -176,7 +185,7 @@ def _count(  # type: ignore[no-untyped-def]  # noqa: ANN202, C901, PLR0913, PLR0
                 base = upper[below, position]
                 above = damping * fastest[position] + base + share * (upper[below + 1, position] - base)
                 if above <= largest:
-                    if above <= limit:
+                    if above <= limit and above < np.inf:
                         holding += 1
                         holding_all += others[actuator, position]
                         continue
@@ -188,13 +197,13 @@ def _count(  # type: ignore[no-untyped-def]  # noqa: ANN202, C901, PLR0913, PLR0
                             beneath,
                             lower[below + 1, position] - right * (lower[after, position] - lower[below + 1, position]),
                         )
-                    if beneath + damping * slowest[position] > limit:
+                    if beneath + damping * slowest[position] > limit + DOUBT * abs(above):
                         continue
                 demand = _worst(table[position], speed, mass, damping)
                 if demand > largest:
                     largest = demand
                     where[actuator] = position
-                if demand <= limit:
+                if demand <= limit and demand < np.inf:
                     holding += 1
                     holding_all += others[actuator, position]
             worst[actuator] = largest

@@ -1,5 +1,6 @@
 """What users do: evaluate, rank and simulate actuators, and check the catalogue's figures."""
 
+from actuator_select.model.exceedance import Exceedance
 from actuator_select.selection.plausibility import Finding, check_catalogue, check_rows
 from actuator_select.selection.records import selection_record
 from actuator_select.selection.selection import (
@@ -11,7 +12,7 @@ from actuator_select.selection.selection import (
     evaluate,
     rank,
 )
-from actuator_select.selection.simulation import Exceedance, Simulation, simulate
+from actuator_select.selection.simulation import Simulation, simulate
 
 __all__ = [
     "CheckVerdict",

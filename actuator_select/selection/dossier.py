@@ -280,8 +280,11 @@ def _moves(selection: Selection) -> tuple[tuple[str, Simulation], ...]:
     single = Candidates(rows=(candidates.rows[best],), actuators=candidates.actuators.take([best]))
     study: Study = selection.study
     return tuple(
-        (one.title, simulate_candidate(study, single, one.from_m, one.to_m, one.orientation_rad))
-        for one in study.table.move
+        (
+            one.title,
+            simulate_candidate(study, single, one.from_m, one.to_m, one.orientation_rad, place=f"move[{index}]"),
+        )
+        for index, one in enumerate(study.table.move)
     )
 
 

@@ -10,11 +10,11 @@ from actuator_select.database import Catalogue
 from actuator_select.errors import InvalidInput, Problem
 from actuator_select.model.actuation import Check
 from actuator_select.model.arrays import FloatArray
-from actuator_select.model.evaluation import ROUNDING
+from actuator_select.model.exceedance import Exceedance, exceedances, peaks, with_peaks
 from actuator_select.model.trajectory import (
     DriveHistory,
+    DrivenMove,
     LineMove,
-    drive_history,
     instants,
     shaft_limits,
     trapezoidal_profile,
@@ -26,34 +26,10 @@ if TYPE_CHECKING:
     import pandas as pd
 
 INSTANTS_PER_PHASE = 401  # for curves
-ZOOM = 101  # instants between two neighbours of a peak, for its height
+LEAST_LENGTH = 1e-9  # m; a shorter cable has no direction that rounding leaves
 NEGATIVE_TENSION_TOLERANCE = 1e-9  # relative to the largest tension of the move
 
 UNITS = {Check.SPEED: "rad/s", Check.TORQUE: "N m", Check.ACCELERATION: "rad/s²", Check.VOLTAGE: "V"}
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Exceedance:
-    """One actuator over one limit for one stretch of time.
-
-    Attributes
-    ----------
-    actuator : int
-        Cable number, from 1.
-    check : Check
-        The limit.
-    start, stop : float
-        When. [s]
-    worst, limit : float
-        Largest magnitude in the stretch, and the limit, at the shaft behind the gearbox.
-    """
-
-    actuator: int
-    check: Check
-    start: float
-    stop: float
-    worst: float
-    limit: float
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -166,117 +142,57 @@ def simulate(
 
 
 def simulate_candidate(
-    study: Study, candidate: Candidates, start: Sequence[float], stop: Sequence[float], orientation: Sequence[float]
+    study: Study,
+    candidate: Candidates,
+    start: Sequence[float],
+    stop: Sequence[float],
+    orientation: Sequence[float],
+    *,
+    place: str = "--from/--to",
 ) -> Simulation:
-    """As `simulate`, for an actuator at hand."""
-    move = _line_move(study, start, stop, orientation)
-    actuator = candidate.actuators
-    times, phases = instants(move.profile, INSTANTS_PER_PHASE)
-    history = drive_history(study.robot, study.wrench, move, actuator, times, phases)
-    if not np.isfinite(history.tension).all() or not np.isfinite(history.acceleration).all():
+    """As `simulate`, for an actuator at hand; `place` names the line in messages."""
+    move = _line_move(study, start, stop, orientation, place)
+    driven = DrivenMove(robot=study.robot, wrench=study.wrench, move=move, actuator=candidate.actuators)
+    if driven.least_lengths().min() < LEAST_LENGTH:
         problem = Problem(
-            place="--from/--to",
-            value="the line passes through a frame anchor",
-            expected="a line that keeps off the anchors",
+            place=place,
+            value="the line touches a frame anchor, where a cable has no direction",
+            expected="a line that keeps off the anchors [m]",
         )
         raise InvalidInput("the move cannot be simulated", [problem])
-    limits = shaft_limits(actuator)
-    peaks, peak_times = {}, {}
-    for check in Check:
-        peaks[check], peak_times[check] = _refined_peaks(study, move, candidate, history, check)
-    exceedances = sorted(
-        (
-            one
-            for check in Check
-            for one in _exceedances(history, check, limits[check], peaks[check], peak_times[check])
-        ),
-        key=lambda one: (one.start, one.actuator, one.check),
-    )
+    history = driven.history(*instants(move.profile, INSTANTS_PER_PHASE))
+    closer = with_peaks(driven, history)
+    found = {check: peaks(closer, check) for check in Check}
     return Simulation(
         study=study,
         candidates=candidate,
         move=move,
         history=history,
-        limits=limits,
-        peaks=peaks,
-        peak_times=peak_times,
-        exceedances=tuple(exceedances),
+        limits=shaft_limits(candidate.actuators),
+        peaks={check: height for check, (height, _) in found.items()},
+        peak_times={check: time for check, (_, time) in found.items()},
+        exceedances=exceedances(driven, closer),
     )
 
 
-def _line_move(study: Study, start: Sequence[float], stop: Sequence[float], orientation: Sequence[float]) -> LineMove:
+def _line_move(
+    study: Study, start: Sequence[float], stop: Sequence[float], orientation: Sequence[float], place: str
+) -> LineMove:
     ends = np.array([start, stop], dtype=np.float64)
     angles = np.array(orientation, dtype=np.float64)
     if not (np.isfinite(ends).all() and np.isfinite(angles).all()):
         raise InvalidInput(
             "the move cannot be simulated",
-            [Problem(place="the line", value="a coordinate is not finite", expected="finite numbers [m], [rad]")],
+            [Problem(place=place, value="a coordinate is not finite", expected="finite numbers [m], [rad]")],
         )
     distance = float(np.linalg.norm(ends[1] - ends[0]))
     if distance == 0.0:
         raise InvalidInput(
             "the move cannot be simulated",
-            [Problem(place="--to", value="equals --from", expected="another position [m]")],
+            [Problem(place=place, value="start and end are the same", expected="another position [m]")],
         )
     motion = study.table.motion
     profile = trapezoidal_profile(
         distance, motion.speed_max_m_per_s, motion.acceleration_time_s, motion.deceleration_time_s
     )
     return LineMove(start=ends[0], stop=ends[1], orientation=angles, profile=profile, centripetal=motion.centripetal)
-
-
-def _refined_peaks(
-    study: Study, move: LineMove, candidate: Candidates, history: DriveHistory, check: Check
-) -> tuple[FloatArray, FloatArray]:
-    """Largest magnitude per cable and its time, looked at again between the instants beside it."""
-    values = np.abs(history.of(check))
-    if np.isnan(values).any():
-        unknown = np.full(values.shape[1], np.nan)
-        return unknown, unknown
-    cables = np.arange(values.shape[1])
-    at = values.argmax(axis=0)
-    last = len(history.times) - 1
-    peak_phase = history.phases[at]
-    before, after = np.maximum(at - 1, 0), np.minimum(at + 1, last)
-    before = np.where(history.phases[before] == peak_phase, before, at)
-    after = np.where(history.phases[after] == peak_phase, after, at)
-    times = np.linspace(history.times[before], history.times[after], ZOOM)  # (ZOOM, m)
-    zoomed = drive_history(
-        study.robot, study.wrench, move, candidate.actuators, times.ravel(), np.tile(peak_phase, ZOOM)
-    )
-    near = np.abs(zoomed.of(check)).reshape(ZOOM, len(cables), len(cables))[:, cables, cables]
-    best = near.argmax(axis=0)
-    return near[best, cables], times[best, cables]
-
-
-def _exceedances(
-    history: DriveHistory, check: Check, limit: float, peaks: FloatArray, peak_times: FloatArray
-) -> list[Exceedance]:
-    values = np.abs(history.of(check))
-    if np.isnan(limit) or np.isnan(values).any():
-        return []
-    found = []
-    over = values > limit * (1.0 + ROUNDING)
-    for cable in np.flatnonzero(over.any(axis=0)):
-        edges = np.flatnonzero(np.diff(np.concatenate([[False], over[:, cable], [False]]).astype(np.int8)))
-        for first, behind in zip(edges[::2], edges[1::2], strict=True):
-            start = _crossing(history.times, values[:, cable], limit, first - 1, first)
-            stop = _crossing(history.times, values[:, cable], limit, behind - 1, behind)
-            inside = start <= peak_times[cable] <= stop
-            worst = peaks[cable] if inside else values[first:behind, cable].max()
-            found.append(
-                Exceedance(
-                    actuator=int(cable) + 1, check=check, start=start, stop=stop, worst=float(worst), limit=limit
-                )
-            )
-    return found
-
-
-def _crossing(times: FloatArray, values: FloatArray, limit: float, left: int, right: int) -> float:
-    """When the limit is crossed between two neighbouring instants; at the ends of the move, the end."""
-    if left < 0:
-        return float(times[0])
-    if right >= len(times):
-        return float(times[-1])
-    share = (limit - values[left]) / (values[right] - values[left])
-    return float(times[left] + share * (times[right] - times[left]))

@@ -1,9 +1,10 @@
 """Results in words, the same on the command line and in reports."""
 
+from actuator_select.model.exceedance import Exceedance
 from actuator_select.model.motion import MotionKind
 from actuator_select.model.ranking import State, Verdict
 from actuator_select.selection.selection import CheckVerdict, RankedActuator, Selection
-from actuator_select.selection.simulation import UNITS, Exceedance, Simulation
+from actuator_select.selection.simulation import UNITS, Simulation
 from actuator_select.study import Study
 
 FIGURE_NAMES = {

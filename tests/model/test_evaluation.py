@@ -85,6 +85,46 @@ def test_the_compiled_counter_agrees_for_actuators_that_are_all_alike(monkeypatc
     assert fast.positions.tolist() == slow.positions.tolist()
 
 
+def test_the_compiled_counter_agrees_where_masses_differ_by_rounding(monkeypatch: pytest.MonkeyPatch) -> None:
+    pytest.importorskip("numba")
+    # One rotor behind gears and drums of one N/R_w: equal reflected masses, rounded differently; others far away.
+    generator = np.random.default_rng(1)
+    one = synthetic_actuators(1, seed=1).take([0] * 300)
+    scale = np.array([5.0, 10.0, 20.0, 40.0, 7.0, 14.0, 28.0, 3.5, 12.0, 24.0, 13.0, 26.0])[
+        generator.integers(12, size=300)
+    ]
+    inertia = np.full(300, 3e-4)
+    inertia[:12], inertia[12:24] = 3e-4 * np.linspace(0.02, 0.9, 12), 3e-4 * np.linspace(1.2, 30.0, 12)
+    clustered = replace(
+        one,
+        ratio=one.ratio * scale / 20.0,
+        drum_radius=one.drum_radius * scale / 20.0,
+        rotor_inertia=inertia,
+        voltage=np.exp(generator.uniform(np.log(10.0), np.log(400.0), 300)),
+    )
+    masses = np.unique(voltage_line(clustered).reflected_mass)
+    assert (np.diff(masses) < 1e-12 * masses[1:]).any()
+    demand = demand_of(points=20)
+    slow = evaluate_actuators(demand, clustered, [Check.VOLTAGE])
+    monkeypatch.setattr(voltage_count, "KERNEL_PAYS_FROM", 0)
+    fast = evaluate_actuators(demand, clustered, [Check.VOLTAGE])
+    assert fast.positions.tolist() == slow.positions.tolist()
+    assert fast.checks[Check.VOLTAGE].worst_utilisation == pytest.approx(
+        slow.checks[Check.VOLTAGE].worst_utilisation, rel=1e-12
+    )
+
+
+@pytest.mark.parametrize("inertia", [0.0, 1e-12])
+def test_the_compiled_counter_agrees_without_inertia(inertia: float, monkeypatch: pytest.MonkeyPatch) -> None:
+    pytest.importorskip("numba")
+    actuators = synthetic_actuators(40)
+    light = replace(actuators, rotor_inertia=np.where(np.arange(40) % 2, inertia, 0.0))
+    demand = demand_of(points=5)
+    slow = evaluate_actuators(demand, light, [Check.VOLTAGE])
+    monkeypatch.setattr(voltage_count, "KERNEL_PAYS_FROM", 0)
+    assert evaluate_actuators(demand, light, [Check.VOLTAGE]).positions.tolist() == slow.positions.tolist()
+
+
 def test_without_a_compiler_numpy_counts(monkeypatch: pytest.MonkeyPatch) -> None:
     demand, actuators = demand_of(), synthetic_actuators(5)
     expected = evaluate_actuators(demand, actuators, [Check.VOLTAGE]).positions.tolist()
@@ -236,5 +276,7 @@ def test_a_position_has_to_hold_at_every_orientation() -> None:
 def test_a_pose_at_an_anchor_is_served_by_nobody() -> None:
     robot = CableRobot(frame_anchors=np.eye(3), platform_anchors=np.zeros((3, 3)))
     demand = compute_demand(robot, np.array([[1.0, 0.0, 0.0]]), np.zeros((1, 3)), required_wrench(1.0, 9.81), MOTION)
-    evaluation = evaluate_actuators(demand, synthetic_actuators(2), list(Check))
-    assert evaluation.positions.tolist() == [0, 0]
+    unlimited = replace(synthetic_actuators(2), voltage=np.array([24.0, np.inf]))
+    for check in Check:
+        assert evaluate_actuators(demand, unlimited, [check]).positions.tolist() == [0, 0]
+    assert evaluate_actuators(demand, unlimited, list(Check)).positions.tolist() == [0, 0]
