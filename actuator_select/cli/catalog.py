@@ -1,7 +1,10 @@
 """``actuator-select catalog``."""
 
+
+
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -49,6 +52,18 @@ def command() -> None:
     """
 
 
+def finding_sentence(finding: "Finding") -> str:
+    """Which row a finding is about, and the finding."""
+    name = "" if finding.name == finding.id else f" ({finding.name})"
+    return f"{finding.kind} {finding.id}{name}: {finding.text}"
+
+
+def warn_of(findings: "Sequence[Finding]") -> None:
+    """Warn of rows that do not agree with themselves."""
+    for finding in findings:
+        console.warn(finding_sentence(finding))
+
+
 @command.command("list")
 @kind_argument
 @options.where_option
@@ -84,6 +99,7 @@ def list_rows(
         actuator-select catalog list gearboxes --format csv
     """
     from actuator_select.database.cells import write_value
+    from actuator_select.database.csv_table import write_csv
     from actuator_select.database.kinds import find_kind
     from actuator_select.database.queries import columns_of
 
@@ -99,7 +115,7 @@ def list_rows(
             console.emit_json({"kind": found.name, "catalogue": record, "rows": [console.plain(row) for row in cells]})
     if output_format == "csv":
         names = [column.name for column in chosen or every]
-        console.emit_csv(names, [[write_value(row[name]) for name in names] for row in shown])
+        click.echo(write_csv(names, ([write_value(row[name]) for name in names] for row in shown)), nl=False)
     elif output_format == "table":
         _emit_rows(chosen or [column for column in every if column.name in found.shown], shown)
         of = "" if len(shown) == len(rows) else f" of {len(rows)}"
@@ -145,8 +161,7 @@ def show(row_id: str, kind: str | None, output_format: str, database: str | None
         _emit_row(f"{role} {row['id']}", part_kind, row)
     for source in known_sources:
         click.echo(f"Source {source['id']}: {_citation(source)}")
-    for finding in findings:
-        console.warn(finding.text)
+    warn_of(findings)
 
 
 @command.command("import")
@@ -179,8 +194,7 @@ def import_file(file: Path, kind: str | None, dry_run: bool, update: bool, datab
 
     with opened(database) as catalogue, console.progress("Reading") as progress:
         report = catalogue.import_csv(file, kind, dry_run=dry_run, update=update, progress=progress)
-    for finding in check_rows(report.kind, report.rows):
-        console.warn(finding.text)
+    warn_of(check_rows(report.kind, report.rows))
     done = f"{report.added} added, {report.updated} changed, {report.unchanged} already there"
     if dry_run:
         console.say(f"Dry run of {file}: {report.kind} would be {done}. Nothing was written.")
@@ -232,6 +246,7 @@ def check(kind: str | None, output_format: str, database: str | None) -> None:
     """Check that every row agrees with itself: power = torque × speed, back-EMF = torque constant, and so on.
 
     A finding is a warning: the figure may be right and the rule too simple. The exit status is 0 also with findings.
+    KIND actuators checks the parts that actuators are made of.
 
     \b
     Examples:
@@ -243,7 +258,10 @@ def check(kind: str | None, output_format: str, database: str | None) -> None:
 
     found = None if kind is None else find_kind(kind).name
     with opened(database) as catalogue:
-        findings = check_catalogue(catalogue, found)
+        findings = check_catalogue(catalogue, None if found == "actuators" else found)
+        if found == "actuators":
+            used = _used_parts(catalogue)
+            findings = [finding for finding in findings if (finding.kind, finding.id) in used]
     if output_format == "json":
         console.emit_json({"findings": [_finding_record(finding) for finding in findings]})
         return
@@ -256,14 +274,14 @@ def check(kind: str | None, output_format: str, database: str | None) -> None:
                 f"{finding.stated:.4g}",
                 f"{finding.expected:.4g}",
                 finding.unit,
-                f"{100.0 * finding.deviation:+.0f} %",
+                f"{100.0 * finding.deviation:+.0f} %" if isfinite(finding.deviation) else UNKNOWN,
                 finding.rule,
             ]
             for finding in findings
         ]
         console.emit_table(header, rows, right=(2, 3, 5))
         for finding in findings:
-            click.echo(finding.text)
+            click.echo(finding_sentence(finding))
     console.say(f"{len(findings)} finding{'' if len(findings) == 1 else 's'}")
 
 
@@ -299,6 +317,8 @@ def fields(kind: str, output_format: str) -> None:
         [field.name, field.expected, "required" if field.required else "", field.description] for field in found.fields
     ]
     console.emit_table(["column", "what may stand there", "", "meaning"], rows, title=found.description)
+    if found.name == "actuators":
+        console.say("Conditions also take the parts' columns, such as motor.rated_power_w: see catalog fields motors.")
 
 
 command.add_command(add)
@@ -324,7 +344,7 @@ def _emit_row(title: str, kind: str, row: dict[str, Any]) -> None:
     known = [
         (field.label, _printed(row[field.name])) for field in find_kind(kind).columns if row[field.name] is not None
     ]
-    console.emit_table(["", ""], known, title=title)
+    console.emit_table(["column", "value"], known, title=title)
 
 
 def _header(column: "Column") -> str:
@@ -364,4 +384,12 @@ def _citation(source: dict[str, Any]) -> str:
 def _finding_record(finding: "Finding") -> dict[str, Any]:
     from dataclasses import asdict
 
-    return console.plain(asdict(finding))
+    record = asdict(finding)
+    return record | {"deviation": finding.deviation if isfinite(finding.deviation) else None}
+
+
+def _used_parts(catalogue: "Catalogue") -> set[tuple[str, str]]:
+    from actuator_select.database.kinds import ROLES
+
+    rows = catalogue.rows("actuators")
+    return {(part.name, str(row[f"{role}_id"])) for row in rows for role, part in ROLES.items()}

@@ -1,5 +1,7 @@
 """``actuator-select catalog add``: from the command line, or question by question."""
 
+
+
 import sys
 from typing import TYPE_CHECKING, Any
 
@@ -31,9 +33,9 @@ def add(kind: str, fields: tuple[str, ...], database: str | None) -> None:
     \b
     Examples:
         actuator-select catalog add motor
-        actuator-select catalog add motor id=acme-m1 rated_power_w=150 rated_speed_rpm=3000 rated_torque_nm=0.48 \
+        actuator-select catalog add motor id=acme-m1 rated_power_w=150 rated_speed_rpm=3000 rated_torque_nm=0.48 \\
             source.document="Acme catalogue" source.url=https://acme.example/m.pdf source.date=2024
-        actuator-select catalog add actuator id=mine name="My actuator" motor_id=acme-m1 \
+        actuator-select catalog add actuator id=mine name="My actuator" motor_id=acme-m1 \\
             winch_id=filipovic-kevac-2018-winch source_id=acme-catalogue-2024
     """
     from actuator_select.database import open_catalogue
@@ -46,7 +48,7 @@ def add(kind: str, fields: tuple[str, ...], database: str | None) -> None:
         console.say_all(catalogue.notices)
         row = catalogue.add(found.name, values, source) if fields else _interview(catalogue, found)
     for finding in check_rows(found.name, [row]):
-        console.warn(finding.text)
+        console.warn(f"{finding.kind} {finding.id}: {finding.text}")
     console.say(f"Added {found.singular} {row['id']}.")
     console.say(f"Next: actuator-select catalog show {row['id']} --kind {found.name}")
 

@@ -73,22 +73,30 @@ def progress(label: str) -> Iterator[Callable[[int, int], None]]:
     from rich.console import Console
     from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 
-    started = _clock()
-    with Progress(
+    began = _clock()
+    console = Console(stderr=True)
+    bar = Progress(
         TextColumn("{task.description}"),
         BarColumn(),
         TextColumn("{task.percentage:>3.0f} %"),
         TimeRemainingColumn(),
-        console=Console(stderr=True),
+        console=console,
         transient=True,
         auto_refresh=False,
-    ) as bar:
-        task = bar.add_task(label, total=None)
+    )
+    task = bar.add_task(label, total=None)
 
-        def advance(done: int, total: int) -> None:
-            bar.update(task, completed=done, total=total, refresh=_clock() - started > PROGRESS_DELAY)
+    def advance(done: int, total: int) -> None:
+        # Started only now: a bar that starts and stops leaves an empty line in a log.
+        if console.is_terminal and _clock() - began > PROGRESS_DELAY:
+            bar.start()
+        bar.update(task, completed=done, total=total, refresh=True)
 
+    try:
         yield advance
+    finally:
+        if bar.live.is_started:
+            bar.stop()
 
 
 def _clock() -> float:

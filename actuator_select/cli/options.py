@@ -38,7 +38,7 @@ def where_option(function: _Command) -> _Command:
         "--where",
         default="",
         metavar="EXPRESSION",
-        help="Keep rows that meet the expression, e.g. \"rated_power_w >= 50 and manufacturer = 'maxon'\".",
+        help="Keep rows that meet the expression, e.g. \"rated_power_w >= 50 and motor.manufacturer = 'maxon'\".",
     )(function)
 
 

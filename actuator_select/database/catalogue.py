@@ -9,13 +9,12 @@ from typing import TYPE_CHECKING, Self
 
 import sqlalchemy as sa
 
-from actuator_select._resources import replace_atomically
 from actuator_select.database import queries
-from actuator_select.database.cells import quoted, write_value
+from actuator_select.database.cells import quoted
 from actuator_select.database.connection import database_url, make_engine, prepare, reading, writing
 from actuator_select.database.content import catalogue_digest
-from actuator_select.database.csv_table import read_csv, write_csv
-from actuator_select.database.fields import Kind
+from actuator_select.database.csv_table import read_csv
+from actuator_select.database.export import rows_as_csv, write_folder
 from actuator_select.database.ingest import (
     Progress,
     Record,
@@ -28,10 +27,12 @@ from actuator_select.database.ingest import (
 )
 from actuator_select.database.kinds import KINDS, find_kind
 from actuator_select.database.queries import Row
-from actuator_select.errors import OutputNotWritable, Problem, UnknownName, did_you_mean
+from actuator_select.errors import Problem, UnknownName, did_you_mean
 
 if TYPE_CHECKING:
     import pandas as pd
+
+    from actuator_select.database.fields import Kind
 
 _LISTED_NAMES = 12  # more names than these are not listed in a message
 
@@ -205,7 +206,7 @@ class Catalogue:
         """
         kinds = list(KINDS.values()) if kind is None else [find_kind(kind)]
         with reading(self._engine) as connection:
-            names = [(one, _names(connection, one)) for one in kinds]
+            names = [(one, queries.fetch_names(connection, one)) for one in kinds]
             found = [(one, known[row_id]) for one, known in names if row_id in known]
             if len(found) == 1:
                 (one, own_id) = found[0]
@@ -349,9 +350,7 @@ class Catalogue:
         """
         found = find_kind(kind)
         with reading(self._engine) as connection:
-            rows = queries.fetch_own_rows(connection, found).values()
-        names = [field.name for field in found.fields]
-        return write_csv(names, ([write_value(row[name]) for name in names] for row in rows))
+            return rows_as_csv(found, queries.fetch_own_rows(connection, found).values())
 
     def export_folder(self, path: str | Path) -> list[Path]:
         """Write every kind to a CSV file.
@@ -371,27 +370,9 @@ class Catalogue:
         OutputNotWritable
             If a file cannot be written.
         """
-        folder = Path(path)
-        try:
-            folder.mkdir(parents=True, exist_ok=True)
-        except OSError as error:
-            raise OutputNotWritable(f"cannot make the folder {folder}: {error.strerror or error}") from error
-        files = []
-        for kind in KINDS:
-            file = folder / f"{kind}.csv"
-            replace_atomically(file, self.export_csv(kind))
-            files.append(file)
-        return files
-
-
-def _names(connection: sa.Connection, kind: Kind) -> dict[str, str]:
-    """Ids by what people may call a row: its id, or its unique name."""
-    names = {row_id: row_id for row_id in queries.fetch_values(connection, kind, "id")}
-    for field in kind.fields:
-        if field.unique:
-            taken = queries.fetch_values(connection, kind, field.name)
-            names = {name: row_id for row_id, name in taken.items()} | names
-    return names
+        with reading(self._engine) as connection:
+            rows = {kind: queries.fetch_own_rows(connection, kind).values() for kind in KINDS.values()}
+        return write_folder(Path(path), {kind.name: rows_as_csv(kind, found) for kind, found in rows.items()})
 
 
 def _hint(word: str, known: Sequence[str]) -> str:

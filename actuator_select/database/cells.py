@@ -20,6 +20,7 @@ _NUMBER = re.compile(r"[+-]?(\d+(\.\d*)?|\.\d+)([eE][+-]?\d+)?")
 _QUANTITY = re.compile(r"\s*([+-]?[\d.]+(?:[eE][+-]?\d+)?)\s*[^\d\s.,].*")
 _NO_TEXT = re.compile("[\x00\ud800-\udfff]")
 _TOO_LARGE = "this is more than a number can hold"
+_LONG_NUMBER = 1e15  # whole numbers from here on are written with an exponent
 _QUOTED_LENGTH = 60  # characters of a value that a message repeats
 
 
@@ -129,7 +130,7 @@ def check_row(kind: Kind, row: Mapping[str, Value]) -> list[tuple[str, Refused]]
 
 
 def _shortest(value: float) -> str:
-    return str(int(value)) if value.is_integer() and abs(value) < 1e15 else repr(value)  # noqa: PLR2004 - 15 digits
+    return str(int(value)) if value.is_integer() and abs(value) < _LONG_NUMBER else repr(value)
 
 
 def _read_text(field: Field, value: object) -> str:

@@ -1,6 +1,7 @@
 """Reaching a database: its address, its transactions, its upkeep on opening, and what can be wrong with it."""
 
 import os
+import re
 import sqlite3
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -55,7 +56,7 @@ def database_url(url: str | Path | None) -> sa.URL:
             return sa.make_url(url)
         except sa.exc.ArgumentError as error:
             raise CatalogueUnavailable(
-                f"{url!r} is no database URL; write a file name, or a URL such as sqlite:///parts.db"
+                f"{_without_password(url)!r} is no database URL; write a file name, or a URL such as sqlite:///parts.db"
             ) from error
     memory = str(url) in _MEMORY
     return sa.URL.create("sqlite", database=":memory:" if memory else str(Path(url).expanduser()))
@@ -224,6 +225,10 @@ def _cause(message: str) -> str:
         if words in message.casefold():
             return f"is unavailable ({message}): {cause}"
     return f"is unavailable: {message.strip()}; choose another with --database or {ENVIRONMENT_VARIABLE}"
+
+
+def _without_password(text: str) -> str:
+    return re.sub(r":[^:@/]*@", ":***@", text)
 
 
 def _shown(url: sa.URL) -> str:

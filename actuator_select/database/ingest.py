@@ -1,6 +1,7 @@
 """From cells to checked rows: all or nothing, and every objection at once."""
 
-from collections.abc import Callable, Collection, Mapping, Sequence
+import re
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import PurePath
 
@@ -17,7 +18,7 @@ from actuator_select.errors import InvalidRows, Problem, UnknownName, did_you_me
 Progress = Callable[[int, int], None]
 
 _LINES_PER_REPORT = 100  # of progress
-_LISTED_IDS = 12  # more ids than these are not listed in a message
+_LISTED_NAMES = 12  # more names than these are not listed in a message
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -158,8 +159,14 @@ def read_record(kind: Kind, values: Mapping[str, object], prefix: str = "") -> t
         if name in spellings:
             pairs.append((spellings[name], value))
         else:
-            expected, remedy = f"a column of {kind.name}", did_you_mean(name, list(spellings))
-            problems.append(Problem(place=f"{prefix}{name}", value=quoted(value), expected=expected, remedy=remedy))
+            problems.append(
+                Problem(
+                    place=f"{prefix}{name}",
+                    value=quoted(value),
+                    expected=f"a column of {kind.name}",
+                    remedy=_suggestion(name, list(spellings), f"catalog fields {kind.name}"),
+                )
+            )
     spelt = {spellings[name].name: name for name in values if name in spellings}
     record, refused = _fill(Record(place=prefix, header="", spelt=spelt, given={}), pairs)
     return record, problems + refused
@@ -212,9 +219,9 @@ def plan_rows(
 
 
 def refuse(heading: str, problems: Sequence[Problem]) -> None:
-    """Raise `InvalidRows` if there are problems, each told once."""
+    """Raise `InvalidRows` if there are problems, each told once and in the order of the lines."""
     if problems:
-        raise InvalidRows(heading, list(dict.fromkeys(problems)))
+        raise InvalidRows(heading, sorted(dict.fromkeys(problems), key=_line))
 
 
 def write_plan(connection: sa.Connection, kind: Kind, plan: Plan) -> None:
@@ -242,7 +249,8 @@ def _fill(record: Record, pairs: Sequence[tuple[Field, object]]) -> tuple[Record
 def _row_problems(kind: Kind, record: Record, row: queries.Row) -> list[Problem]:
     problems = []
     for column, refused in check_row(kind, row):
-        if record.was_refused(column):
+        group = next((names for names in kind.any_of if column in names), (column,))
+        if any(record.was_refused(name) for name in group):
             continue
         if record.header and kind.field(column).required and column not in record.spelt:
             # Told once, not for every line.
@@ -251,6 +259,11 @@ def _row_problems(kind: Kind, record: Record, row: queries.Row) -> list[Problem]
         else:
             problems.append(refused.at(record.at(column), row.get(column)))
     return problems
+
+
+def _line(problem: Problem) -> int:
+    found = re.search(r", line (\d+)", problem.place)
+    return int(found[1]) if found else 0
 
 
 def _has_id(record: Record) -> bool:
@@ -266,7 +279,7 @@ def _read_header(kind: Kind, table: CsvTable) -> tuple[list[Field | None], list[
         field = spellings.get(name)
         if field is None:
             expected = f"a column of {kind.name}"
-            remedy = f"{did_you_mean(name, list(spellings))}" if name else "remove the column or name it"
+            remedy = _suggestion(name, list(spellings), f"catalog fields {kind.name}")
             problems.append(Problem(place=place, value=quoted(name), expected=expected, remedy=remedy))
         elif field in fields:
             problems.append(
@@ -341,8 +354,13 @@ def _check_references(connection: sa.Connection, kind: Kind, records: Sequence[R
     return problems
 
 
-def _remedy(value: str, other: Kind, known: Collection[str]) -> str:
-    hint = did_you_mean(value, list(known))
-    if len(known) > _LISTED_IDS and hint.startswith("known are"):
-        hint = f"`actuator-select catalog list {other.name}` shows which exist"
+def _remedy(value: str, other: Kind, known: Sequence[str]) -> str:
+    hint = _suggestion(value, known, f"catalog list {other.name}")
     return f"{hint} (import {other.name}.csv first, or add the {other.singular})"
+
+
+def _suggestion(word: str, known: Sequence[str], command: str) -> str:
+    """Near names, or all where they are few, or the command that lists them."""
+    hint = did_you_mean(word, known)
+    too_many = len(known) > _LISTED_NAMES and hint.startswith("known are")
+    return f"`actuator-select {command}` lists what there is" if too_many else hint

@@ -1,10 +1,15 @@
 """Bringing a database's tables to the version that this program knows. Alembic is imported only when there is work."""
 
+from typing import TYPE_CHECKING
+
 import sqlalchemy as sa
 
 from actuator_select._resources import shipped_dir
 from actuator_select.database.schema import SCHEMA_REVISION
 from actuator_select.errors import CatalogueUnavailable
+
+if TYPE_CHECKING:
+    from alembic.config import Config
 
 __all__ = ["SCHEMA_REVISION", "current_revision", "downgrade", "upgrade"]
 
@@ -80,7 +85,7 @@ def downgrade(connection: sa.Connection, revision: str) -> None:
     command.downgrade(_config(connection), revision)
 
 
-def _config(connection: sa.Connection):  # type: ignore[no-untyped-def]  # noqa: ANN202
+def _config(connection: sa.Connection) -> "Config":
     from alembic.config import Config
 
     config = Config()

@@ -92,6 +92,15 @@ def fetch_values(connection: sa.Connection, kind: Kind, column: str) -> dict[str
     return {str(row_id): value for row_id, value in connection.execute(query)}
 
 
+def fetch_names(connection: sa.Connection, kind: Kind) -> dict[str, str]:
+    """Ids by what people may call a row: its id, or a name that only it has."""
+    names = {row_id: row_id for row_id in fetch_values(connection, kind, "id")}
+    for field in kind.fields:
+        if field.unique:
+            names = {name: row_id for row_id, name in fetch_values(connection, kind, field.name).items()} | names
+    return names
+
+
 def count_rows(connection: sa.Connection, kind: Kind) -> int:
     """Number of rows of a kind."""
     return int(connection.scalar(sa.select(sa.func.count()).select_from(TABLES[kind.name])) or 0)

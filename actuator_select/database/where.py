@@ -337,8 +337,7 @@ class _Compiler:
         if word.casefold() in {"inf", "infinity"}:
             return f"{word} is no column; write 'is unlimited' after a column"
         names = [one.name for one in self._columns]
-        last_halves = {name.rpartition(".")[2]: name for name in reversed(names)}
-        known = [*names, *(half for half in last_halves if half not in names)]
+        known = names if "." in word else list(dict.fromkeys(name.rpartition(".")[2] for name in names))
         hint = did_you_mean(word.casefold(), known)
         if hint.startswith("known are"):
             hint = "`actuator-select catalog fields` lists the columns; a text stands in quotes"
