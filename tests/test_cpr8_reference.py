@@ -132,7 +132,7 @@ def _residual(study: Study) -> np.ndarray:
 def test_actuator_4_with_the_nominal_torque_of_its_motor(catalogue: Catalogue) -> None:
     expected = COMPUTED["actuator_4_with_its_rated_torque"]
     at_rest, moving = (
-        {"motion.speed_max_m_per_s": 1e-9, **NO_CENTRIPETAL},
+        {"motion.speed_max_m_per_s": 1e-6, **NO_CENTRIPETAL},
         {},
     )
     for torque, key in (

@@ -11,6 +11,13 @@ from actuator_select.errors import ActuatorSelectError, InvalidStudy, UnknownNam
 from actuator_select.model.actuation import Check
 from actuator_select.study import builtin_studies, load_study, parse_overrides, parse_study, starter_text, study_text
 
+SAMPLED = {
+    "set": "sampled",
+    "speed_max_m_per_s": 1.3,
+    "acceleration_time_s": 1.8,
+    "deceleration_time_s": 1.8,
+}
+
 
 def test_the_case_study_is_the_papers() -> None:
     study = load_study("cpr8")
@@ -37,8 +44,8 @@ def test_the_starter_study_works_as_it_stands() -> None:
 @pytest.mark.parametrize(
     ("key", "value", "expected"),
     [
-        ("motion.speed_max_m_per_s", -1.0, "motion.speed_max_m_per_s: -1.0, expected more than 0 [m/s]"),
-        ("motion.acceleration_time_s", 0, "motion.acceleration_time_s: 0, expected more than 0 [s]"),
+        ("motion.speed_max_m_per_s", -1.0, "motion.speed_max_m_per_s: -1.0, expected at least 1e-06 [m/s]"),
+        ("motion.acceleration_time_s", 0, "motion.acceleration_time_s: 0, expected at least 1e-06 [s]"),
         ("payload.mass_kg", float("nan"), "payload.mass_kg: NaN, expected a finite number [kg]"),
         ("payload.mass_kg", float("inf"), "payload.mass_kg: Infinity, expected a finite number [kg]"),
         ("payload.mass_kg", "2", 'payload.mass_kg: "2", expected a number [kg]'),
@@ -48,13 +55,19 @@ def test_the_starter_study_works_as_it_stands() -> None:
         ("workspace.points", [6.5, 6, 6], "workspace.points[0]: 6.5, expected a whole number"),
         ("workspace.orientations_rad", [], "workspace.orientations_rad: [], expected at least 1 entries [rad]"),
         ("workspace.box_m", [[1, 0], [0, 1], [0, 1]], "x runs from 1.0 to 0.0 m"),
+        ("workspace.box_m", [[1, 1], [0, 1], [0, 1]], "a single point along x"),
+        ("motion.speed_max_m_per_s", 1e200, "motion.speed_max_m_per_s: 1e+200, expected at most 1e+06 [m/s]"),
+        ("variant[1].set", {"motion.centripedal": False}, "motion.centripedal: is not a key of a study"),
+        ("variant[1].set", {"candidates.where": "ratio > 3"}, "variant[1].set: 'candidates.where', expected a key of"),
         ("robot.carrier_m", [3.0, 3.0, 3.0], "a carrier whose diagonal (5.196 m) fits into the frame"),
         ("robot.builder", "cpr9", "robot.builder: \"cpr9\", expected one of 'cpr8'"),
         ("checks.apply", ["speed", "power"], "checks.apply[1]: \"power\", expected one of 'speed'"),
         ("checks.apply", ["speed", "speed"], "every check once"),
         ("checks.apply", [], "checks.apply: [], expected at least 1"),
         ("requirement.feasible_percent", 120, "requirement.feasible_percent: 120, expected at most 100 [per cent"),
-        ("workspace.points", [1000, 1000, 1000], "are 1,000,000,000 poses, expected at most 2,000,000; take a coarser"),
+        ("workspace.points", [1000, 1000, 1000], "are 1,000,000,000 poses, expected at most 1,000,000 with 8 cables"),
+        ("motion", SAMPLED | {"velocity_intervals": 1}, "motion.velocity_intervals: 1, expected at least 2"),
+        ("motion", SAMPLED | {"velocity_intervals": 30000}, "motion.velocity_intervals: 30000, expected at most 60"),
         ("motion.velocity_intervals", 6, 'expected set = "sampled" where velocity_intervals is given'),
         ("motion.sped_max_m_per_s", 1.0, "did you mean 'speed_max_m_per_s'"),
         ("gravity", 9.81, "did you mean 'gravity_m_per_s2'"),
@@ -91,6 +104,8 @@ def test_a_file_that_is_not_toml_is_refused_with_its_line(tmp_path: Path) -> Non
     file.write_text('name = "x"\nrobot = [1,\n', encoding="utf-8")
     with pytest.raises(InvalidStudy, match="not valid TOML"):
         load_study(file)
+    file.write_bytes("\ufeff".encode() + study_text("cpr8").encode())
+    assert load_study(file).name == "cpr8"
     file.write_bytes(b'name = "\xff"\n')
     with pytest.raises(InvalidStudy, match="not UTF-8"):
         load_study(file)

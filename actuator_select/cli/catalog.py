@@ -1,7 +1,5 @@
 """``actuator-select catalog``."""
 
-
-
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from math import isfinite

@@ -1,7 +1,5 @@
 """``actuator-select catalog add``: from the command line, or question by question."""
 
-
-
 import sys
 from typing import TYPE_CHECKING, Any
 

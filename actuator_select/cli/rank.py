@@ -7,7 +7,7 @@ import click
 from actuator_select.cli import console, options
 
 if TYPE_CHECKING:
-    from actuator_select.selection import RankedActuator, Selection
+    from actuator_select.selection import Selection
 
 
 @click.command("rank")
@@ -63,18 +63,13 @@ def command(
         console.say(f"Next: actuator-select report {study}{' with the same --set' if overrides else ''}")
 
 
-def shown(selection: "Selection", *, only_meeting: bool) -> "list[RankedActuator]":
-    """Actuators to show, best first."""
-    return [actuator for actuator in selection.ranked if not only_meeting or actuator.verdict.value == "meets"]
-
-
 def print_ranking(selection: "Selection", *, only_meeting: bool) -> None:
     """Print what the percentage is of, the table, and the warnings."""
-    from actuator_select.selection.wording import check_cell, heading, share, verdict_word
+    from actuator_select.selection.wording import check_cell, heading, share
 
     for line in heading(selection):
         click.echo(line)
-    actuators = shown(selection, only_meeting=only_meeting)
+    actuators = selection.shown(only_meeting=only_meeting)
     checks = list(selection.study.checks)
     header = ["", "actuator", "verdict", "feasible", *(check.value for check in checks), "limited by"]
     rows = []
@@ -84,7 +79,7 @@ def print_ranking(selection: "Selection", *, only_meeting: bool) -> None:
             [
                 str(place),
                 actuator.name,
-                verdict_word(actuator),
+                actuator.verdict.value,
                 share(actuator, selection.poses),
                 *(check_cell(actuator.checks[check], selection.poses) for check in checks),
                 limiting.value if limiting and actuator.feasible_poses < selection.poses else "–",
@@ -109,7 +104,7 @@ def _emit_csv(selection: "Selection", *, only_meeting: bool) -> None:
     header = ["id", "name", "verdict", "feasible_percent", "feasible_poses", "poses"]
     header += [f"{check.value}_{what}" for check in checks for what in ("state", "poses", "worst_utilisation")]
     rows = []
-    for actuator in shown(selection, only_meeting=only_meeting):
+    for actuator in selection.shown(only_meeting=only_meeting):
         row: list[object] = [
             actuator.id,
             actuator.name,

@@ -89,7 +89,7 @@ def command(
         console.emit_json(simulation_record(run))
     elif output_format == "csv":
         frame = run.frame()
-        console.emit_csv(list(frame.columns), frame.to_numpy().tolist())
+        console.emit_csv(list(frame.columns), frame.astype(object).where(frame.notna(), None).to_numpy().tolist())
     else:
         print_simulation(run)
 
@@ -112,10 +112,10 @@ def print_simulation(run: "Simulation") -> None:
     """Print the peaks per actuator, what exceeds which limit when, and warnings."""
     from actuator_select.model.actuation import Check
     from actuator_select.selection.simulation import UNITS
-    from actuator_select.selection.wording import exceedance_words, move_words, pushing_words
+    from actuator_select.selection.wording import exceedance_words, missing_words, move_words, pushing_words
 
     click.echo(move_words(run))
-    header = ["cable", *(f"|{check.value}| [{UNITS[check]}]" for check in Check)]
+    header = ["actuator", *(f"|{check.value}| [{UNITS[check]}]" for check in Check)]
     rows = [
         [str(cable + 1), *(_cell(run.peaks[check][cable]) for check in Check)]
         for cable in range(run.study.robot.cables)
@@ -126,8 +126,10 @@ def print_simulation(run: "Simulation") -> None:
     if run.exceedances:
         for exceedance in run.exceedances:
             click.echo(f"  {exceedance_words(exceedance)}")
-    else:
-        click.echo("Every limit that could be evaluated holds over the whole move.")
+    elif not run.missing:
+        click.echo("Every limit holds over the whole move.")
+    for check, missing in run.missing.items():
+        click.echo(f"  {check.value} not evaluated: {missing_words(missing)} unknown")
     if run.pushing:
         console.warn(pushing_words(run))
 

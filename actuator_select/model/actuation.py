@@ -26,6 +26,8 @@ class Check(StrEnum):
     VOLTAGE = "voltage"
 
 
+ROUNDING = 1e-12  # relative; a demand that exceeds its limit by less is rounding, and passes
+
 FIGURES_NEEDED: dict[Check, tuple[str, ...]] = {
     Check.SPEED: ("motor_speed", "ratio", "drum_radius"),
     Check.TORQUE: ("motor_torque", "ratio", "efficiency", "drum_radius"),
@@ -165,3 +167,24 @@ def voltage_line(actuators: ActuatorSet) -> VoltageLine:
         damping=shaft.damping_gain / (shaft.load_gain * radius**2),
         force_limit=actuators.voltage / (shaft.load_gain * radius),
     )
+
+
+def utilisation(demand: FloatArray, limit: FloatArray) -> FloatArray:
+    """Demand over limit, broadcast.
+
+    Parameters
+    ----------
+    demand : array
+        Not negative; infinite where it is undefined, which exceeds any limit.
+    limit : array
+        In the same unit; NaN unknown, infinite unlimited.
+
+    Returns
+    -------
+    array
+        0 for no demand, infinite for an undefined one or a limit of zero, NaN for an unknown limit.
+    """
+    with np.errstate(divide="ignore", invalid="ignore"):
+        ratio = demand / limit
+    ratio = np.where(np.isinf(demand), np.inf, np.where(demand == 0.0, 0.0, ratio))
+    return np.where(np.isnan(limit), np.nan, ratio)

@@ -12,8 +12,9 @@ from actuator_select.model.motion import MotionKind, MotionSet
 from actuator_select.model.robot import CableRobot
 from actuator_select.model.tension import pseudo_inverse_tensions, unbalanced
 
-NEGATIVE_TENSION_TOLERANCE = 1e-9  # relative to the largest static tension of all poses
-POSES_AT_ONCE = 4096  # keeps the factorisation's scratch arrays in a few megabytes
+NEGATIVE_TENSION_TOLERANCE = 1e-9  # relative to the largest static tension of the pose
+CELLS_AT_ONCE = 1 << 22  # (pose, cable, velocity sample) cells in one chunk: 32 MiB of scratch
+LEAST_CELLS = 128  # of a pose and cable; its geometry and factorisation need about as much
 
 Progress = Callable[[int, int], None]
 
@@ -40,7 +41,7 @@ class Demand:
         At rest. [N]
     tension_per_acceleration : (Q, m, 3) array
         [kg]
-    rate_up, rate_down : (Q, m) array
+    speed_in, speed_out : (Q, m) array
         Greatest cable speed winding in and winding out over the motion set. [m/s]
     speed : (Q, m) array
         The greater of the two. [m/s]
@@ -62,8 +63,8 @@ class Demand:
     directions: FloatArray
     static_tension: FloatArray
     tension_per_acceleration: FloatArray
-    rate_up: FloatArray
-    rate_down: FloatArray
+    speed_in: FloatArray
+    speed_out: FloatArray
     speed: FloatArray
     force: FloatArray
     acceleration: FloatArray
@@ -120,22 +121,22 @@ def compute_demand(
     each_orientation = np.tile(orientations, (len(positions), 1))
     poses = len(each_position)
     parts: list[dict[str, np.ndarray]] = []
-    for start in range(0, poses, POSES_AT_ONCE):
-        chunk = slice(start, start + POSES_AT_ONCE)
+    step = max(1, CELLS_AT_ONCE // (robot.cables * max(LEAST_CELLS, len(motion.velocities))))
+    for start in range(0, poses, step):
+        chunk = slice(start, start + step)
         parts.append(_chunk(robot, each_position[chunk], each_orientation[chunk], wrench, motion))
         if progress is not None:
-            progress(min(start + POSES_AT_ONCE, poses), poses)
+            progress(min(start + step, poses), poses)
     arrays = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
-    static = arrays["static_tension"]
-    tolerance = NEGATIVE_TENSION_TOLERANCE * np.abs(static).max()
-    slack = arrays.pop("least_tension")
+    static, least = arrays["static_tension"], arrays.pop("least_tension")
+    tolerance = NEGATIVE_TENSION_TOLERANCE * np.abs(static).max(axis=1, keepdims=True)
     return Demand(
         positions=positions,
         orientations=orientations,
         motion=motion,
         negative_at_rest=(static < -tolerance).any(axis=1),
-        negative_in_motion=(slack < -tolerance).any(axis=1),
-        rank_deficient=arrays["rank"] < robot.full_rank,
+        negative_in_motion=(least < -tolerance).any(axis=1),
+        rank_deficient=arrays["rank"] < robot.degrees_of_freedom,
         **arrays,
     )
 
@@ -148,7 +149,7 @@ def _chunk(
     centre, reach = motion.acceleration_centre, motion.acceleration_reach
     middle_force = tensions.static + tensions.per_acceleration @ centre
     force_reach = np.abs(tensions.per_acceleration) @ reach
-    rate_up, rate_down, least_centripetal, most_centripetal = _velocity_extremes(
+    speed_in, speed_out, least_centripetal, most_centripetal = _velocity_extremes(
         geometry.directions, geometry.lengths, motion
     )
     middle_acceleration = geometry.directions @ centre
@@ -160,9 +161,9 @@ def _chunk(
         "directions": geometry.directions,
         "static_tension": tensions.static,
         "tension_per_acceleration": tensions.per_acceleration,
-        "rate_up": rate_up,
-        "rate_down": rate_down,
-        "speed": np.maximum(rate_up, rate_down) + undefined,
+        "speed_in": speed_in,
+        "speed_out": speed_out,
+        "speed": np.maximum(speed_in, speed_out) + undefined,
         "force": np.abs(middle_force) + force_reach + undefined,
         "least_tension": middle_force - force_reach,
         "acceleration": np.maximum(
@@ -184,15 +185,15 @@ def _velocity_extremes(
     if motion.kind is MotionKind.INDEPENDENT:
         speed = motion.speed * np.linalg.norm(directions, axis=-1)
         return speed, speed, nothing, scale * motion.speed**2
-    rates = cable_rates(directions, motion)
-    rate_up, rate_down = rates.max(axis=-1), -rates.min(axis=-1)
+    rates = cable_speeds(directions, motion)
+    speed_in, speed_out = rates.max(axis=-1), -rates.min(axis=-1)
     if not motion.centripetal:
-        return rate_up, rate_down, nothing, nothing
+        return speed_in, speed_out, nothing, nothing
     across = (motion.velocities**2).sum(axis=1) - rates**2
-    return rate_up, rate_down, scale * across.min(axis=-1), scale * across.max(axis=-1)
+    return speed_in, speed_out, scale * across.min(axis=-1), scale * across.max(axis=-1)
 
 
-def cable_rates(directions: FloatArray, motion: MotionSet) -> FloatArray:
+def cable_speeds(directions: FloatArray, motion: MotionSet) -> FloatArray:
     """Cable speed u·v of every sampled velocity, (Q, m, S). [m/s]."""
     rates: FloatArray = directions.reshape(-1, 3) @ motion.velocities.T
     return rates.reshape(*directions.shape[:-1], -1)

@@ -6,16 +6,19 @@ from itertools import product
 import numpy as np
 
 from actuator_select.model.actuation import torque_ratio
-from actuator_select.model.arrays import FloatArray
+from actuator_select.model.arrays import FloatArray, IntArray
 from actuator_select.model.components import ActuatorSet
 from actuator_select.model.demand import Demand, centripetal_scale
+from actuator_select.model.motion import MotionKind
 
 SEED = 20180703  # the sample is the same at every run
+SPEEDS = 9  # cable speeds from the greatest out to the greatest in
+MOST_COVERED = 20_000  # points of the positions that are covered; beyond, a random part of them
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DriveCloud:
-    """A sample of S operating points at the motor's shaft, winding in positive.
+    """S operating points at the motor's shaft, winding in positive.
 
     Attributes
     ----------
@@ -32,47 +35,66 @@ class DriveCloud:
     total_torque: FloatArray
 
 
-def drive_cloud(demand: Demand, actuator: ActuatorSet, points: int) -> DriveCloud:
+def drive_cloud(demand: Demand, actuator: ActuatorSet, points: int, positions: IntArray) -> DriveCloud:
     """Sample what all poses, cables and extreme motions ask of one drive.
 
     Parameters
     ----------
     demand : Demand
-        At Q poses on m cables.
+        At P positions, Q poses, on m cables.
     actuator : ActuatorSet
         A single one.
     points : int
-        Sample size, at most.
+        Random points, over all poses, cables, velocities and corners of the box of accelerations.
+    positions : (n,) array
+        Positions that are covered completely, beside the random points: the critical ones.
 
     Returns
     -------
     DriveCloud
-        Drawn at random over poses, cables, velocities on the speed limit or at rest, and corners of the box of
-        accelerations; NaN where a figure is unknown.
+        The same at every run; NaN where a figure is unknown.
     """
-    motion = demand.motion
-    signs = np.array(list(product((-1.0, 0.0, 1.0), repeat=3)))
-    norms = np.linalg.norm(signs, axis=1)
-    ball = motion.speed * np.divide(signs, norms[:, None], out=np.zeros_like(signs), where=norms[:, None] > 0.0)
-    velocities = motion.velocities if len(motion.velocities) else ball
-    corners = np.array(list(product(*zip(motion.acceleration_lower, motion.acceleration_upper, strict=True))))
     poses, cables = demand.lengths.shape
-    generator = np.random.default_rng(SEED)
-    size = min(points, poses * cables * len(velocities) * len(corners))
-    pose, cable = generator.integers(poses, size=size), generator.integers(cables, size=size)
-    velocity = velocities[generator.integers(len(velocities), size=size)]
-    acceleration = corners[generator.integers(len(corners), size=size)]
-    direction = demand.directions[pose, cable]
-    rate = (direction * velocity).sum(axis=1)
-    swing = ((velocity**2).sum(axis=1) - rate**2) * centripetal_scale(demand.lengths, motion)[pose, cable]
-    winding = (direction * acceleration).sum(axis=1) - swing
-    tension = demand.static_tension[pose, cable] + (demand.tension_per_acceleration[pose, cable] * acceleration).sum(
-        axis=1
+    corners = np.array(
+        list(product(*zip(demand.motion.acceleration_lower, demand.motion.acceleration_upper, strict=True)))
     )
+    generator = np.random.default_rng(SEED)
+    choices = max(1, len(demand.motion.velocities)) if demand.motion.kind is MotionKind.SAMPLED else 2 * SPEEDS
+    orientations = len(demand.orientations)
+    covered = (np.asarray(positions, dtype=np.int64)[:, None] * orientations + np.arange(orientations)).ravel()
+    every = np.array(
+        list(product(covered, range(cables), range(choices), range(len(corners)))), dtype=np.int64
+    ).reshape(-1, 4)
+    drawn = np.column_stack(
+        [generator.integers(count, size=points) for count in (poses, cables, choices, len(corners))]
+    )
+    if len(every) > MOST_COVERED:
+        every = every[generator.choice(len(every), size=MOST_COVERED, replace=False)]
+    pose, cable, choice, corner = np.vstack([every, drawn]).T
+    speed, centripetal = _motions(demand, pose, cable, choice)
+    acceleration = (demand.directions[pose, cable] * corners[corner]).sum(axis=1) - centripetal
+    per_acceleration = demand.tension_per_acceleration[pose, cable]
+    tension = demand.static_tension[pose, cable] + (per_acceleration * corners[corner]).sum(axis=1)
     ratio, radius = float(actuator.ratio[0]), float(actuator.drum_radius[0])
     load = tension * radius / float(torque_ratio(actuator)[0])
     return DriveCloud(
-        speed=rate / radius * ratio,
+        speed=speed / radius * ratio,
         load_torque=load,
-        total_torque=load + float(actuator.rotor_inertia[0]) * ratio * winding / radius,
+        total_torque=load + float(actuator.rotor_inertia[0]) * ratio * acceleration / radius,
     )
+
+
+def _motions(demand: Demand, pose: IntArray, cable: IntArray, choice: IntArray) -> tuple[FloatArray, FloatArray]:
+    """Cable speed and centripetal term of the chosen velocity, each (S,).
+
+    Of the ball, what matters to a cable is its own speed, and whether the rest of the greatest speed goes across it.
+    """
+    motion = demand.motion
+    scale = centripetal_scale(demand.lengths, motion)[pose, cable]
+    if motion.kind is MotionKind.SAMPLED:
+        velocity = motion.velocities[choice]
+        speed = (demand.directions[pose, cable] * velocity).sum(axis=1)
+        return speed, ((velocity**2).sum(axis=1) - speed**2) * scale
+    speed = np.linspace(-motion.speed, motion.speed, SPEEDS)[choice % SPEEDS]
+    across = np.where(choice < SPEEDS, motion.speed**2 - speed**2, 0.0)
+    return speed, across * scale

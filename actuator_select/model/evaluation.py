@@ -11,10 +11,12 @@ import numpy as np
 
 from actuator_select.model.actuation import (
     FIGURES_NEEDED,
+    ROUNDING,
     Check,
     cable_acceleration_limit,
     cable_force_limit,
     cable_speed_limit,
+    utilisation,
     voltage_line,
 )
 from actuator_select.model.arrays import BoolArray, FloatArray, IntArray
@@ -23,7 +25,6 @@ from actuator_select.model.demand import Demand, Progress
 from actuator_select.model.voltage import voltage_demand
 from actuator_select.model.voltage_count import VoltageCounter
 
-ROUNDING = 1e-12  # relative; a demand that exceeds its limit by less is rounding, and passes
 CELLS_AT_ONCE = 1 << 25  # (actuator, position) pairs in one chunk: 32 MiB of verdicts
 
 
@@ -153,7 +154,7 @@ def position_utilisation(demand: Demand, actuators: ActuatorSet, checks: Sequenc
             result[check] = voltage_demand(demand).utilisation(voltage_line(actuators))
         else:
             scalar = _scalar_check(demand, actuators, check)
-            result[check] = scalar.demand / scalar.limit[:, None]
+            result[check] = utilisation(scalar.demand, scalar.limit[:, None])
     return result
 
 
@@ -177,12 +178,10 @@ class _ScalarCheck:
         finite = np.sort(self.demand[np.isfinite(self.demand)])
         positions = np.searchsorted(finite, self.limit * (1.0 + ROUNDING), side="right")
         worst = int(self.demand.argmax())
-        with np.errstate(divide="ignore"):
-            utilisation = self.demand[worst] / self.limit
         return CheckCount(
             evaluated=evaluated,
             positions=np.where(evaluated, positions, -1),
-            worst_utilisation=utilisation,
+            worst_utilisation=utilisation(self.demand[worst], self.limit),
             worst_position=np.where(evaluated, worst, -1),
         )
 

@@ -4,9 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from actuator_select.model.actuation import Check
+from actuator_select.model.actuation import ROUNDING, Check
 from actuator_select.model.arrays import BoolArray, FloatArray, IntArray
-from actuator_select.model.evaluation import ROUNDING
 from actuator_select.model.trajectory import DriveHistory, DrivenMove, shaft_limits
 
 ZOOMS = 3  # rounds of looking closer at every local maximum

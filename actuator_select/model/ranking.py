@@ -1,6 +1,7 @@
 """Verdicts on evaluated actuators, and the order in which they are shown."""
 
 from enum import StrEnum
+from math import ceil
 
 import numpy as np
 
@@ -31,6 +32,11 @@ def meets_share(positions: IntArray, total: int, required_percent: float) -> Boo
     """Tell whether so many positions out of `total` are at least the required share, elementwise."""
     enough: BoolArray = 100.0 * positions / total >= required_percent - PERCENT_TOLERANCE
     return enough
+
+
+def required_positions(total: int, required_percent: float) -> int:
+    """Least number of positions, 1 or more, that is at least the required share of `total`."""
+    return max(1, ceil(total * required_percent / 100.0 - PERCENT_TOLERANCE))
 
 
 def verdicts(evaluation: Evaluation, required_percent: float) -> list[Verdict]:

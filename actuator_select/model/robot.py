@@ -40,10 +40,9 @@ class CableRobot:
         return len(self.frame_anchors)
 
     @property
-    def full_rank(self) -> int:
-        """Greatest rank that its structure matrix can have: a point mass takes forces only, a body six components."""
-        components = 6 if self.platform_anchors.any() else 3
-        return min(components, self.cables)
+    def degrees_of_freedom(self) -> int:
+        """3 for a point mass, whose cables all meet in the platform's origin; 6 for a body."""
+        return 6 if self.platform_anchors.any() else 3
 
 
 def cpr8(frame: FloatArray, carrier: FloatArray) -> CableRobot:

@@ -9,9 +9,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from actuator_select.model.actuation import VoltageLine
+from actuator_select.model.actuation import VoltageLine, utilisation
 from actuator_select.model.arrays import FloatArray, IntArray
-from actuator_select.model.demand import Demand, cable_rates, centripetal_scale
+from actuator_select.model.demand import Demand, centripetal_scale
 from actuator_select.model.motion import MotionKind
 
 CELLS_AT_ONCE = 1 << 17  # (actuator, position, cable, sample) cells in one chunk: its scratch stays in the cache
@@ -27,31 +27,33 @@ class VoltageDemand:
         Tension [N] and cable acceleration [m/s²] at the centre of the box of accelerations.
     force_reach, acceleration_reach : (P, k, 3) array
         Their change from the centre to the box's face, per axis. [N, m/s²]
-    rate_up, rate_down : (P, k) array
+    speed_in, speed_out : (P, k) array
         Greatest cable speed winding in and out. [m/s]
     speed : float
         Radius of the ball of velocities. [m/s]
     inverse_length : (P, k) array
         1/l, or 0 where the centripetal term is left out. [1/m]
-    rates, across : (P, k, S) array or None
-        Sampled cable speeds [m/s] and centripetal terms [m/s²]; None where the closed form holds.
+    directions : (P, k, 3) array or None
+        Cable directions, where velocities are sampled and the centripetal term counts; None where extremes suffice.
+    velocities : (S, 3) array
+        The samples. [m/s]
     """
 
     force: FloatArray
     acceleration: FloatArray
     force_reach: FloatArray
     acceleration_reach: FloatArray
-    rate_up: FloatArray
-    rate_down: FloatArray
+    speed_in: FloatArray
+    speed_out: FloatArray
     speed: float
     inverse_length: FloatArray
-    rates: FloatArray | None
-    across: FloatArray | None
+    directions: FloatArray | None
+    velocities: FloatArray
 
     def worst(self, line: VoltageLine) -> FloatArray:
         """Largest |u|/(S R_w) over motions, cables and orientations, (C, P). [N]"""
         positions, cables = self.force.shape
-        samples = 1 if self.rates is None else self.rates.shape[-1]
+        samples = 1 if self.directions is None else len(self.velocities)
         result = np.empty((len(line.damping), positions))
         step = max(1, CELLS_AT_ONCE // (max(1, len(line.damping)) * cables * samples))
         for start in range(0, positions, step):
@@ -72,11 +74,13 @@ class VoltageDemand:
     def _velocity_terms(self, line: VoltageLine, chunk: slice) -> tuple[FloatArray, FloatArray]:
         """Greatest of ±(damping · v - reflected_mass · centripetal), each (C, p, k)."""
         mass, damping = line.reflected_mass[:, None, None], line.damping[:, None, None]
-        if self.rates is not None and self.across is not None:
-            terms = damping[..., None] * self.rates[chunk] - mass[..., None] * self.across[chunk]
+        if self.directions is not None:
+            speeds = self.directions[chunk] @ self.velocities.T
+            across = (self.velocities**2).sum(axis=1) - speeds**2
+            terms = damping[..., None] * speeds - mass[..., None] * (across * self.inverse_length[chunk, :, None])
             return terms.max(axis=-1), -terms.min(axis=-1)
-        up = damping * self.rate_up[chunk]
-        down = damping * self.rate_down[chunk]
+        up = damping * self.speed_in[chunk]
+        down = damping * self.speed_out[chunk]
         # Winding out at u·v = -s: damping s + mass (V² - s²)/l is largest at s = damping l/(2 mass) if that is below V.
         inverse_length = self.inverse_length[chunk]
         inside = damping < 2.0 * mass * self.speed * inverse_length
@@ -88,26 +92,21 @@ class VoltageDemand:
 
     def take(self, positions: IntArray) -> "VoltageDemand":
         """Demand of the positions at these indices, in this order."""
-
-        def chosen(values: FloatArray | None) -> FloatArray | None:
-            return None if values is None else values[positions]
-
         return replace(
             self,
             force=self.force[positions],
             acceleration=self.acceleration[positions],
             force_reach=self.force_reach[positions],
             acceleration_reach=self.acceleration_reach[positions],
-            rate_up=self.rate_up[positions],
-            rate_down=self.rate_down[positions],
+            speed_in=self.speed_in[positions],
+            speed_out=self.speed_out[positions],
             inverse_length=self.inverse_length[positions],
-            rates=chosen(self.rates),
-            across=chosen(self.across),
+            directions=None if self.directions is None else self.directions[positions],
         )
 
     def utilisation(self, line: VoltageLine) -> FloatArray:
         """Largest |u|/U at every position, (C, P); NaN where a figure is unknown."""
-        return self.worst(line) / line.force_limit[:, None]
+        return utilisation(self.worst(line), line.force_limit[:, None])
 
 
 def voltage_demand(demand: Demand) -> VoltageDemand:
@@ -128,27 +127,23 @@ def voltage_demand(demand: Demand) -> VoltageDemand:
     undefined = np.where(demand.lengths > 0.0, 0.0, np.inf)
     force = demand.static_tension + demand.tension_per_acceleration @ centre + undefined
     scale = centripetal_scale(demand.lengths, motion)
-    sampled: tuple[FloatArray, FloatArray] | None = None
-    if motion.kind is MotionKind.SAMPLED and motion.centripetal:
-        rates = cable_rates(demand.directions, motion)
-        across = scale[..., None] * ((motion.velocities**2).sum(axis=1) - rates**2)
-        sampled = (demand.by_position(rates), demand.by_position(across))
+    sampled = motion.kind is MotionKind.SAMPLED and motion.centripetal
     return VoltageDemand(
         force=demand.by_position(force),
         acceleration=demand.by_position(demand.directions @ centre),
         force_reach=demand.by_position(demand.tension_per_acceleration * reach),
         acceleration_reach=demand.by_position(demand.directions * reach),
-        rate_up=demand.by_position(demand.rate_up),
-        rate_down=demand.by_position(demand.rate_down),
+        speed_in=demand.by_position(demand.speed_in),
+        speed_out=demand.by_position(demand.speed_out),
         speed=motion.speed,
         inverse_length=demand.by_position(scale),
-        rates=None if sampled is None else sampled[0],
-        across=None if sampled is None else sampled[1],
+        directions=demand.by_position(demand.directions) if sampled else None,
+        velocities=motion.velocities,
     )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Tally:
+class VoltageTally:
     """Running counts of C actuators, updated in place as positions come in.
 
     Attributes

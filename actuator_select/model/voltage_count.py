@@ -4,13 +4,13 @@ from collections.abc import Callable
 
 import numpy as np
 
-from actuator_select.model.actuation import VoltageLine
+from actuator_select.model.actuation import VoltageLine, utilisation
 from actuator_select.model.arrays import BoolArray, FloatArray, IntArray
-from actuator_select.model.voltage import Tally, VoltageDemand
+from actuator_select.model.voltage import VoltageDemand, VoltageTally
 
 KERNEL_PAYS_FROM = 60_000_000  # (actuator, position, cable) cells; below, NumPy is done before a compiler is loaded
 
-Kernel = Callable[[VoltageDemand, VoltageLine, BoolArray, Tally], None]
+Kernel = Callable[[VoltageDemand, VoltageLine, BoolArray, VoltageTally], None]
 
 
 class VoltageCounter:
@@ -38,7 +38,7 @@ class VoltageCounter:
         self._known = np.flatnonzero(~np.isnan(line.force_limit + line.damping + line.reflected_mass))
         self._line = line.take(self._known)
         count = len(self._known)
-        self._tally = Tally(
+        self._tally = VoltageTally(
             limit=self._line.force_limit * (1.0 + rounding),
             alone=np.zeros(count, dtype=np.int64),
             joint=np.zeros(count, dtype=np.int64),
@@ -93,10 +93,7 @@ class VoltageCounter:
     def worst_utilisation(self) -> FloatArray:
         """Largest |u|/U, (C,)."""
         result = np.full(self._actuators, np.nan)
-        with np.errstate(invalid="ignore"):
-            utilisation = self._tally.worst / self._line.force_limit
-        # A position without a defined demand is beyond any limit, an unlimited one too.
-        result[self._known] = np.where(np.isinf(self._tally.worst), np.inf, utilisation)
+        result[self._known] = utilisation(self._tally.worst, self._line.force_limit)
         return result
 
     @property
@@ -111,7 +108,7 @@ def _median_index(values: FloatArray) -> int:
 
 def _kernel(rows: VoltageDemand, actuators: int) -> Kernel:
     """Choose the compiled counter where it pays and exists; it knows no sampled centripetal terms."""
-    if rows.rates is not None or actuators * rows.force.size < KERNEL_PAYS_FROM:
+    if rows.directions is not None or actuators * rows.force.size < KERNEL_PAYS_FROM:
         return count_with_numpy
     try:
         from actuator_select.model.voltage_kernel import count
@@ -120,7 +117,7 @@ def _kernel(rows: VoltageDemand, actuators: int) -> Kernel:
     return count
 
 
-def count_with_numpy(rows: VoltageDemand, line: VoltageLine, others: BoolArray, tally: Tally) -> None:
+def count_with_numpy(rows: VoltageDemand, line: VoltageLine, others: BoolArray, tally: VoltageTally) -> None:
     """Evaluate every cell; the definition that the compiled counter has to agree with.
 
     Parameters
@@ -131,7 +128,7 @@ def count_with_numpy(rows: VoltageDemand, line: VoltageLine, others: BoolArray, 
         Of C actuators, every figure known.
     others : (C, p) array of bool
         Where the other checks hold.
-    tally : Tally
+    tally : VoltageTally
         Updated in place.
     """
     demand = rows.worst(line)

@@ -17,7 +17,7 @@ import numpy as np
 from actuator_select._resources import writable_cache_dir
 from actuator_select.model.actuation import VoltageLine
 from actuator_select.model.arrays import BoolArray, FloatArray
-from actuator_select.model.voltage import Tally, VoltageDemand
+from actuator_select.model.voltage import VoltageDemand, VoltageTally
 
 os.environ.setdefault("NUMBA_CACHE_DIR", str(writable_cache_dir("kernels")))
 from numba import njit  # reads its cache folder when it is imported
@@ -29,7 +29,7 @@ DOUBT = 1e-9  # relative; a lower bound rejects only where it exceeds the limit 
 POSITIONS_AT_ONCE = 512  # positions whose bounds stay in a core's cache while all actuators pass over them
 
 
-def count(rows: VoltageDemand, line: VoltageLine, others: BoolArray, tally: Tally) -> None:
+def count(rows: VoltageDemand, line: VoltageLine, others: BoolArray, tally: VoltageTally) -> None:
     """As `voltage_count.count_with_numpy`, on every core.
 
     Parameters
@@ -38,7 +38,7 @@ def count(rows: VoltageDemand, line: VoltageLine, others: BoolArray, tally: Tall
         As there; velocities not sampled with the centripetal term.
     """
     table = _pack(rows)
-    rates = np.maximum(rows.rate_up, rows.rate_down).max(axis=1), rows.rate_up.min(axis=1)
+    rates = np.maximum(rows.speed_in, rows.speed_out).max(axis=1), rows.speed_in.min(axis=1)
     knots = _knots(line.reflected_mass)
     interval = np.clip(np.searchsorted(knots, line.reflected_mass, side="right") - 1, 0, len(knots) - 2)
     upper, lower = np.empty((len(knots), len(table))), np.empty((len(knots), len(table)))
@@ -99,8 +99,8 @@ def _pack(rows: VoltageDemand) -> FloatArray:
             rows.acceleration,
             *np.moveaxis(rows.force_reach, -1, 0),
             *np.moveaxis(rows.acceleration_reach, -1, 0),
-            rows.rate_up,
-            rows.rate_down,
+            rows.speed_in,
+            rows.speed_out,
             rows.inverse_length,
             length,
         ],

@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from actuator_select.model.actuation import Check
+from actuator_select.model.actuation import ROUNDING, Check
 from actuator_select.report.style import BLUE, CABLE_COLOURS, GREY, ORANGE, RED, house_style, new_figure
 from actuator_select.selection import Simulation
 from actuator_select.selection.dossier import ActuatorDetail
@@ -150,7 +150,7 @@ def _history(axes: Axes, run: Simulation, check: Check) -> None:
         if limit <= 3.0 * largest:
             for sign in (1.0, -1.0):
                 axes.axhline(sign * limit, color="black", linestyle="--", linewidth=1.4)
-            over = np.abs(values) > limit
+            over = np.abs(values) > limit * (1.0 + ROUNDING)
             axes.fill_between(
                 times,
                 0.0,

@@ -2,7 +2,7 @@
 
 import platform
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from datetime import datetime
 from importlib.metadata import version
 from typing import Any
@@ -21,7 +21,6 @@ from actuator_select.selection.dossier import Dossier, build_dossier
 
 SHORTLIST = 3
 PLANES = 3  # actuators whose torque-speed plane and slices are drawn
-RANKED_ROWS = 100  # rows of the table; a longer ranking belongs in CSV
 LIBRARIES = ("numpy", "scipy", "sqlalchemy", "pandas", "matplotlib")
 
 
@@ -39,14 +38,14 @@ class ReportDetails:
         Command line that makes the report again.
     """
 
-    generated_at: datetime
+    generated_at: datetime = field(default_factory=lambda: datetime.now().astimezone())
     project: str = ""
     author: str = ""
     revision: str = ""
     command: str = ""
 
 
-def render_report(selection: Selection, catalogue: Catalogue, details: ReportDetails) -> str:
+def render_report(selection: Selection, catalogue: Catalogue, details: ReportDetails | None = None) -> str:
     """Render the design report.
 
     Parameters
@@ -55,8 +54,8 @@ def render_report(selection: Selection, catalogue: Catalogue, details: ReportDet
         The ranking to report.
     catalogue : Catalogue
         Where its actuators came from; names the sources.
-    details : ReportDetails
-        Title block, date and command.
+    details : ReportDetails, optional
+        Title block, date and command; the present time alone by default.
 
     Returns
     -------
@@ -85,16 +84,21 @@ def render_report(selection: Selection, catalogue: Catalogue, details: ReportDet
         dossier=dossier,
         selection=selection,
         study=selection.study,
-        details=details,
+        details=ReportDetails() if details is None else details,
         words=wording,
         shortlist=shortlist(selection),
-        rows=selection.ranked[:RANKED_ROWS],
+        pushing=_pushing(selection),
         State=State,
         Verdict=Verdict,
         images=_images(dossier),
         versions=_versions(),
         sources=_sources(dossier),
     )
+
+
+def _pushing(selection: Selection) -> int:
+    """Positions where a cable has to push at rest."""
+    return sum(warning.poses for warning in selection.warnings if warning.code == "negative_tension_at_rest")
 
 
 def shortlist(selection: Selection) -> tuple[RankedActuator, ...]:
@@ -111,10 +115,9 @@ def _images(dossier: Dossier) -> dict[str, Any]:
         for detail in dossier.details
     ]
     turned = [
-        (variant.title, variant.feasible)
-        for variant in dossier.variants
-        if len(variant.feasible) == len(study.positions)
-        and "orientations" in " ".join(variant_keys(dossier, variant.title))
+        (result.variant.title, result.feasible)
+        for result in dossier.variants
+        if "workspace.orientations_rad" in result.variant.keys and len(result.feasible) == len(study.positions)
     ]
     return {
         "bars": _image(share_bars(dossier.selection, [detail.actuator for detail in dossier.details]), "svg"),
@@ -125,11 +128,6 @@ def _images(dossier: Dossier) -> dict[str, Any]:
         "moves": [_image(simulation_figure(run), "svg") for _, run in dossier.moves],
         "leading": leading.actuator.name,
     }
-
-
-def variant_keys(dossier: Dossier, title: str) -> list[str]:
-    """Keys that a variant changes."""
-    return [key for one in dossier.selection.study.table.variant if one.title == title for key in one.set]
 
 
 def _image(figure: Figure, image_format: str) -> Markup:

@@ -10,10 +10,12 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 from mpl_toolkits.mplot3d.axes3d import Axes3D
 
+from actuator_select.model.actuation import ROUNDING
 from actuator_select.model.arrays import BoolArray, FloatArray
 from actuator_select.report.style import BLUE, CHECK_COLOURS, GREY, RED, house_style, new_figure
 from actuator_select.selection import RankedActuator, Selection
 from actuator_select.selection.dossier import ActuatorDetail
+from actuator_select.selection.wording import share
 from actuator_select.study import Study
 
 PANELS_PER_ROW = 3
@@ -21,6 +23,7 @@ TITLE_WIDTH = 40  # characters of a panel's title in one line
 NAME_WIDTH = 40  # characters of an actuator's name beside its bar
 FULL_WIDTH = 7.5  # inches
 LEVELS = 4  # slices of one actuator
+MOST_POINTS = 8000  # of one 3-D panel
 UTILISATION_SHOWN = 2.0  # colours saturate there
 
 
@@ -38,7 +41,7 @@ def share_bars(selection: Selection, actuators: Sequence[RankedActuator]) -> Fig
         axes.text(
             actuator.feasible_percent + 1.0,
             row,
-            f"{actuator.feasible_poses}/{selection.poses} ({actuator.feasible_percent:.1f} %)",
+            share(actuator, selection.poses),
             va="center",
             fontsize=8,
             bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.85, "pad": 0.8},
@@ -99,7 +102,9 @@ def workspace_panels(study: Study, panels: Sequence[tuple[str, BoolArray]]) -> F
 
 
 def _workspace(axes: Axes3D, study: Study, feasible: BoolArray) -> None:
-    positions = study.positions
+    # More points than this would hide each other; every n-th shows the shape as well.
+    step = -(-len(study.positions) // MOST_POINTS)
+    positions, feasible = study.positions[::step], feasible[::step]
     size = float(np.clip(3000.0 / len(positions), 1.0, 18.0))
     served, missed = positions[feasible], positions[~feasible]
     axes.scatter(*missed.T, marker="x", s=0.6 * size, color=RED, linewidths=0.6, depthshade=False, rasterized=True)
@@ -170,9 +175,10 @@ def slice_panels(study: Study, detail: ActuatorDetail) -> Figure:
             which.T,
             cmap=ListedColormap(colours),
             norm=BoundaryNorm(np.arange(len(colours) + 1) - 0.5, len(colours)),
+            rasterized=True,
         )
         _cross_out(upper, edges, values)
-        shaded = lower.pcolormesh(*edges, values.T, cmap="RdYlBu_r", norm=norm)
+        shaded = lower.pcolormesh(*edges, values.T, cmap="RdYlBu_r", norm=norm, rasterized=True)
         _cross_out(lower, edges, values)
         upper.set_title(f"{'xyz'[axis]} = {heights[level]:.2f} m", fontsize=8.5)
         lower.set_xlabel(f"{'xyz'[first]} [m]")
@@ -216,6 +222,6 @@ def _cross_out(axes: Axes, edges: Sequence[FloatArray], values: FloatArray) -> N
     """Mark the cells over a limit, so that they show without colours."""
     centres = [(edge[:-1] + edge[1:]) / 2.0 for edge in edges]
     x, y = np.meshgrid(*centres, indexing="ij")
-    over = values > 1.0
+    over = values > 1.0 + ROUNDING
     size = float(np.clip(400.0 / max(values.size, 1), 1.0, 16.0))
-    axes.scatter(x[over], y[over], marker="x", s=size, color="black", linewidths=0.6)
+    axes.scatter(x[over], y[over], marker="x", s=size, color="black", linewidths=0.6, rasterized=True)

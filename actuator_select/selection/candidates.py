@@ -134,9 +134,9 @@ def find_actuator(catalogue: Catalogue, actuator: str) -> Candidates:
         If there is none.
     """
     rows = catalogue.rows("actuators")
-    for row in rows:
-        if actuator == row["id"] or actuator.casefold() == str(row["name"]).casefold():
-            return from_rows([row])
+    by_id = [row for row in rows if actuator == row["id"]]
+    for row in by_id or [row for row in rows if actuator.casefold() == str(row["name"]).casefold()]:
+        return from_rows([row])
     known = [str(row[key]) for row in rows for key in ("name", "id")]
     raise UnknownName(
         f"no actuator {actuator!r} in the catalogue; {did_you_mean(actuator, known)} "

@@ -2,18 +2,17 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from math import ceil
 from typing import Any
 
 import numpy as np
 
 from actuator_select.database import Catalogue
-from actuator_select.model.actuation import Check
+from actuator_select.model.actuation import ROUNDING, Check
 from actuator_select.model.arrays import BoolArray, FloatArray, IntArray
 from actuator_select.model.components import ActuatorSet
 from actuator_select.model.drive_cloud import DriveCloud, drive_cloud
-from actuator_select.model.evaluation import ROUNDING, position_utilisation
-from actuator_select.model.ranking import PERCENT_TOLERANCE, Verdict
+from actuator_select.model.evaluation import position_utilisation
+from actuator_select.model.ranking import Verdict, required_positions
 from actuator_select.selection.candidates import Candidates
 from actuator_select.selection.plausibility import Finding, check_rows
 from actuator_select.selection.selection import (
@@ -23,14 +22,15 @@ from actuator_select.selection.selection import (
     rank_result,
 )
 from actuator_select.selection.simulation import Simulation, simulate_candidate
-from actuator_select.study import Study, parse_study
+from actuator_select.study import Study, Variant
 from actuator_select.units import rpm
 
+SHOWN = 100  # actuators that are listed and explained; a longer ranking belongs in CSV
 DETAILED = 6  # actuators that get pictures
 CLOUD_POINTS = 5000
 PART_KINDS = {"motor": "motors", "gearbox": "gearboxes", "winch": "winches"}
 
-# The motor figure that each limit is made of, its unit, and how it is read off the model.
+# The motor figure that each limit is made of, and its unit.
 LIMIT_FIGURES: dict[Check, tuple[str, str]] = {
     Check.SPEED: ("rated speed", "rpm"),
     Check.TORQUE: ("rated torque", "N m"),
@@ -95,22 +95,26 @@ class ActuatorDetail:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Variant:
-    """The study with some keys changed.
+class VariantResult:
+    """The study with some keys changed, ranked.
 
     Attributes
     ----------
-    title : str
-        Of the variant.
+    variant : Variant
+        What was changed.
     selection : Selection
         Its ranking.
     feasible : (P,) array of bool
         Where the study's best actuator serves in this variant.
     """
 
-    title: str
+    variant: Variant
     selection: Selection
     feasible: BoolArray
+
+    def actuator(self, index: int) -> RankedActuator:
+        """The candidate of this index."""
+        return next(actuator for actuator in self.selection.ranked if actuator.index == index)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -144,22 +148,25 @@ class Dossier:
     ----------
     selection : Selection
         The ranking.
+    shown : tuple of RankedActuator
+        The best `SHOWN`, best first.
     details : tuple of ActuatorDetail
-        The best actuators, best first.
+        The best `DETAILED` of them.
     needs : tuple of (RankedActuator, tuple of Need)
-        For every detailed actuator that fails: the limits that keep it from the requirement.
-    variants : tuple of Variant
+        For every shown actuator that fails: the limits that keep it from the requirement.
+    variants : tuple of VariantResult
         In the study's order.
     moves : tuple of (str, Simulation)
         Titles and simulations of the study's moves with the best actuator.
     parts : tuple of Part
-        Catalogue rows behind the ranked actuators.
+        Catalogue rows behind the shown actuators.
     """
 
     selection: Selection
+    shown: tuple[RankedActuator, ...]
     details: tuple[ActuatorDetail, ...]
     needs: tuple[tuple[RankedActuator, tuple[Need, ...]], ...]
-    variants: tuple[Variant, ...]
+    variants: tuple[VariantResult, ...]
     moves: tuple[tuple[str, Simulation], ...]
     parts: tuple[Part, ...]
 
@@ -182,16 +189,17 @@ def build_dossier(selection: Selection, catalogue: Catalogue) -> Dossier:
     Returns
     -------
     Dossier
-        For the best `DETAILED` actuators.
+        Figures for the shown actuators, arrays for the detailed ones.
     """
-    best = selection.ranked[:DETAILED]
+    shown = selection.ranked[:SHOWN]
     return Dossier(
         selection=selection,
-        details=tuple(_detail(selection, actuator) for actuator in best),
-        needs=tuple((actuator, _needs(selection, actuator)) for actuator in best if actuator.verdict is Verdict.FAILS),
-        variants=_variants(selection),
+        shown=shown,
+        details=tuple(_detail(selection, actuator) for actuator in shown[:DETAILED]),
+        needs=_needs(selection, [actuator for actuator in shown if actuator.verdict is Verdict.FAILS]),
+        variants=tuple(_variant(selection, one) for one in selection.study.variants),
         moves=_moves(selection),
-        parts=_parts(selection, best, catalogue),
+        parts=_parts(selection, shown, catalogue),
     )
 
 
@@ -217,61 +225,64 @@ def _detail(selection: Selection, actuator: RankedActuator) -> ActuatorDetail:
     utilisation, critical, checks = _worst(selection, actuator.index)
     evaluation = selection.result.evaluation
     figures = evaluation.actuators.take([actuator.index])
+    worst_positions = np.unique([evaluation.checks[check].worst_position[actuator.index] for check in checks])
     return ActuatorDetail(
         actuator=actuator,
         utilisation=utilisation,
         critical=critical,
         checks=checks,
         feasible=utilisation <= 1.0 + ROUNDING,
-        cloud=drive_cloud(evaluation.demand, figures, CLOUD_POINTS),
+        cloud=drive_cloud(evaluation.demand, figures, CLOUD_POINTS, worst_positions),
         figures=figures,
     )
 
 
-def _needs(selection: Selection, actuator: RankedActuator) -> tuple[Need, ...]:
+def _needs(selection: Selection, failing: list[RankedActuator]) -> tuple[tuple[RankedActuator, tuple[Need, ...]], ...]:
     evaluation = selection.result.evaluation
-    figures = evaluation.actuators.take([actuator.index])
-    enough = max(1, ceil(selection.poses * selection.required_percent / 100.0 - PERCENT_TOLERANCE))
-    motor = {
-        Check.SPEED: rpm(float(figures.motor_speed[0])),
-        Check.TORQUE: float(figures.motor_torque[0]),
-        Check.ACCELERATION: float(figures.motor_torque[0]),
-        Check.VOLTAGE: float(figures.voltage[0]),
+    enough = required_positions(selection.poses, selection.required_percent)
+    figures = evaluation.actuators.take([actuator.index for actuator in failing])
+    stated = {
+        Check.SPEED: rpm(figures.motor_speed),
+        Check.TORQUE: figures.motor_torque,
+        Check.ACCELERATION: figures.motor_torque,
+        Check.VOLTAGE: figures.voltage,
     }
-    needs = []
-    for check, verdict in actuator.checks.items():
-        if verdict.poses is None or verdict.poses >= enough:
-            continue
-        utilisation = np.sort(position_utilisation(evaluation.demand, figures, [check])[check][0])
-        # Every limit is proportional to its figure, so the utilisation to be reached scales it.
-        figure, unit = LIMIT_FIGURES[check]
-        needs.append(
-            Need(
-                check=check,
-                poses=verdict.poses,
-                figure=figure,
-                unit=unit,
-                stated=motor[check],
-                needed=motor[check] * float(utilisation[enough - 1]),
+    needs: list[list[Need]] = [[] for _ in failing]
+    for check in evaluation.checks:
+        short = [
+            row
+            for row, actuator in enumerate(failing)
+            if (poses := actuator.checks[check].poses) is not None and poses < enough
+        ]
+        utilisation = position_utilisation(evaluation.demand, figures.take(short), [check])[check]
+        # Every limit is proportional to its figure, so the utilisation to be brought down to 1 scales it.
+        reached = np.sort(utilisation, axis=1)[:, enough - 1]
+        for row, factor in zip(short, reached, strict=True):
+            figure, unit = LIMIT_FIGURES[check]
+            now = float(stated[check][row])
+            needs[row].append(
+                Need(
+                    check=check,
+                    poses=int(evaluation.checks[check].positions[failing[row].index]),
+                    figure=figure,
+                    unit=unit,
+                    stated=now,
+                    needed=now * float(factor),
+                )
             )
-        )
-    return tuple(needs)
+    return tuple((actuator, tuple(found)) for actuator, found in zip(failing, needs, strict=True))
 
 
-def _variants(selection: Selection) -> tuple[Variant, ...]:
-    study = selection.study
-    variants = []
-    for one in study.table.variant:
-        changed = parse_study(study.text, place=f"{study.name}, variant {one.title!r}", overrides=one.set)
-        ranked = rank_result(
-            evaluate_candidates(changed, selection.result.candidates),
-            require=selection.required_percent,
-            fingerprint=selection.fingerprint,
-        )
-        variants.append(
-            Variant(title=one.title, selection=ranked, feasible=feasible_positions(ranked, selection.ranked[0].index))
-        )
-    return tuple(variants)
+def _variant(selection: Selection, variant: Variant) -> VariantResult:
+    ranked = rank_result(
+        evaluate_candidates(variant.study, selection.result.candidates),
+        require=selection.required_percent,
+        fingerprint=selection.fingerprint,
+        where=selection.where,
+    )
+    return VariantResult(
+        variant=variant, selection=ranked, feasible=feasible_positions(ranked, selection.ranked[0].index)
+    )
 
 
 def _moves(selection: Selection) -> tuple[tuple[str, Simulation], ...]:

@@ -82,6 +82,11 @@ class Rule:
     direct_current: bool = False
 
 
+def _known(row: Row, column: str, *, otherwise: float) -> float:
+    value = row.get(column)
+    return otherwise if value is None else float(value)
+
+
 def _loaded_speed(row: Row) -> float:
     current = row["rated_torque_nm"] / row["torque_constant_nm_per_a"]
     voltage = row["nominal_voltage_v"] - row["terminal_resistance_ohm"] * current
@@ -152,7 +157,7 @@ MOTOR_RULES = (
         unit="A",
         needs=("rated_torque_nm", "torque_constant_nm_per_a"),
         expected=lambda row: (
-            row["rated_torque_nm"] / row["torque_constant_nm_per_a"] + (row.get("no_load_current_a") or 0.0)
+            row["rated_torque_nm"] / row["torque_constant_nm_per_a"] + _known(row, "no_load_current_a", otherwise=0.0)
         ),
         because="rated torque / torque constant, with the no-load current where known",
     ),

@@ -29,14 +29,12 @@ def selection_record(selection: Selection, *, only_meeting: bool = False) -> dic
         "study": study.name,
         "tension_model": study.tension_model.value,
         "motion_set": study.motion.kind.value,
-        "catalogue": {"fingerprint": selection.fingerprint},
+        "catalogue": {"fingerprint": selection.fingerprint, "where": selection.where},
         "poses": selection.poses,
         "required_percent": selection.required_percent,
         "warnings": [{"code": one.code, "poses": one.poses, "text": one.text} for one in selection.warnings],
         "actuators": [
-            _actuator_record(actuator, selection.poses)
-            for actuator in selection.ranked
-            if not only_meeting or actuator.verdict.value == "meets"
+            _actuator_record(actuator, selection.poses) for actuator in selection.shown(only_meeting=only_meeting)
         ],
     }
 
@@ -47,6 +45,7 @@ def _actuator_record(actuator: RankedActuator, poses: int) -> dict[str, Any]:
         "name": actuator.name,
         "feasible_percent": round(actuator.feasible_percent, 2),
         "feasible_poses": actuator.feasible_poses,
+        "feasible_is_upper_bound": actuator.is_upper_bound,
         "poses": poses,
         "verdict": actuator.verdict.value,
         "checks": {check.value: _check_record(verdict) for check, verdict in actuator.checks.items()},
@@ -102,6 +101,7 @@ def simulation_record(run: Simulation) -> dict[str, Any]:
             }
             for one in run.exceedances
         ],
+        "not_evaluated": {check.value: list(missing) for check, missing in run.missing.items()},
         "negative_tension_cables": run.pushing,
     }
 

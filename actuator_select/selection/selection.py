@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from actuator_select.database import Catalogue
+from actuator_select.errors import InvalidInput, Problem
 from actuator_select.model.actuation import Check
 from actuator_select.model.demand import Demand, Progress, compute_demand
 from actuator_select.model.evaluation import Evaluation, evaluate_actuators, missing_figures
@@ -97,12 +98,17 @@ class RankedActuator:
     checks: dict[Check, CheckVerdict]
 
     @property
+    def is_upper_bound(self) -> bool:
+        """Whether a check was not evaluated, so that the share is known from above only."""
+        return any(verdict.state is State.NOT_EVALUATED for verdict in self.checks.values())
+
+    @property
     def limiting_check(self) -> Check | None:
         """The evaluated check that leaves the fewest positions; at a tie, the one exceeded most."""
         evaluated = [
-            (verdict.poses, -(verdict.worst_utilisation or 0.0), check)
+            (verdict.poses, -verdict.worst_utilisation, check)
             for check, verdict in self.checks.items()
-            if verdict.poses is not None
+            if verdict.poses is not None and verdict.worst_utilisation is not None
         ]
         return min(evaluated)[2] if evaluated else None
 
@@ -156,6 +162,8 @@ class Selection:
         What the percentages rest on.
     fingerprint : str
         Of the catalogue's content.
+    where : str
+        Condition on the candidates beside the study's own.
     """
 
     result: StudyEvaluation
@@ -163,6 +171,7 @@ class Selection:
     ranked: tuple[RankedActuator, ...]
     warnings: tuple[Warned, ...]
     fingerprint: str
+    where: str = ""
 
     @property
     def study(self) -> Study:
@@ -173,6 +182,10 @@ class Selection:
     def poses(self) -> int:
         """Positions in total."""
         return len(self.study.positions)
+
+    def shown(self, *, only_meeting: bool = False) -> tuple[RankedActuator, ...]:
+        """Actuators, best first; only those that meet the requirement if so asked."""
+        return tuple(actuator for actuator in self.ranked if not only_meeting or actuator.verdict is Verdict.MEETS)
 
     def frame(self) -> "pd.DataFrame":
         """Ranking as a table: one row per actuator, best first, with the counts of every check."""
@@ -257,6 +270,8 @@ def rank(
     ------
     NoCandidates
         If no actuator is left.
+    InvalidInput
+        If `require` is not from 0 to 100.
 
     References
     ----------
@@ -273,12 +288,16 @@ def rank(
         evaluate(study, catalogue, where=where, progress=progress),
         require=require,
         fingerprint=catalogue.fingerprint(),
+        where=where,
     )
 
 
-def rank_result(result: StudyEvaluation, *, require: float | None, fingerprint: str) -> Selection:
+def rank_result(result: StudyEvaluation, *, require: float | None, fingerprint: str, where: str = "") -> Selection:
     """Rank what has been evaluated; parameters as for `rank`."""
     required = result.study.table.requirement.feasible_percent if require is None else require
+    if not 0.0 <= required <= 100.0:  # noqa: PLR2004 - per cent; NaN fails too
+        problem = Problem(place="--require", value=f"{required:g}", expected="a number from 0 to 100 [%]")
+        raise InvalidInput("the requirement does not hold", [problem])
     evaluation = result.evaluation
     verdict = verdicts(evaluation, required)
     missing = {check: missing_figures(evaluation.actuators, check) for check in evaluation.checks}
@@ -301,6 +320,7 @@ def rank_result(result: StudyEvaluation, *, require: float | None, fingerprint: 
         ranked=ranked,
         warnings=demand_warnings(evaluation.demand),
         fingerprint=fingerprint,
+        where=where,
     )
 
 
@@ -341,7 +361,7 @@ def demand_warnings(demand: Demand) -> tuple[Warned, ...]:
         (
             "rank_deficient",
             demand.rank_deficient,
-            "the structure matrix is short of rank: some forces or moments cannot be balanced by any tensions",
+            "the structure matrix is short of rank: no tensions can balance every force and moment on the platform",
         ),
         (
             "negative_tension_at_rest",

@@ -10,6 +10,7 @@ from actuator_select.database import Catalogue
 from actuator_select.errors import InvalidInput, Problem
 from actuator_select.model.actuation import Check
 from actuator_select.model.arrays import FloatArray
+from actuator_select.model.evaluation import missing_figures
 from actuator_select.model.exceedance import Exceedance, exceedances, peaks, with_peaks
 from actuator_select.model.trajectory import (
     DriveHistory,
@@ -67,6 +68,12 @@ class Simulation:
     def duration(self) -> float:
         """Of the move. [s]"""
         return float(self.move.profile.corners[-1])
+
+    @property
+    def missing(self) -> dict[Check, tuple[str, ...]]:
+        """Checks that could not be evaluated, with the figures that they lack."""
+        lacking = {check: missing_figures(self.candidates.actuators, check)[0] for check in Check}
+        return {check: figures for check, figures in lacking.items() if figures}
 
     @property
     def pushing(self) -> list[int]:

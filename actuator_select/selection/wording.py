@@ -1,11 +1,15 @@
 """Results in words, the same on the command line and in reports."""
 
+from collections.abc import Sequence
+
 from actuator_select.model.exceedance import Exceedance
 from actuator_select.model.motion import MotionKind
-from actuator_select.model.ranking import State, Verdict
+from actuator_select.model.ranking import State
 from actuator_select.selection.selection import CheckVerdict, RankedActuator, Selection
 from actuator_select.selection.simulation import UNITS, Simulation
 from actuator_select.study import Study
+
+LARGE = 1e4  # utilisations from here on are written with three digits
 
 FIGURE_NAMES = {
     "motor_speed": "rated speed",
@@ -29,8 +33,12 @@ def count_of(positions: int, total: int) -> str:
 
 def share(actuator: RankedActuator, total: int) -> str:
     """Feasible share; an upper bound where a check was not evaluated."""
-    bound = any(verdict.state is State.NOT_EVALUATED for verdict in actuator.checks.values())
-    return f"{'at most ' if bound else ''}{count_of(actuator.feasible_poses, total)}"
+    return f"{'at most ' if actuator.is_upper_bound else ''}{count_of(actuator.feasible_poses, total)}"
+
+
+def bounded(actuator: RankedActuator) -> str:
+    """Feasible positions; marked where they are an upper bound."""
+    return f"{'≤ ' if actuator.is_upper_bound else ''}{actuator.feasible_poses}"
 
 
 def check_cell(verdict: CheckVerdict, total: int) -> str:
@@ -38,18 +46,14 @@ def check_cell(verdict: CheckVerdict, total: int) -> str:
     if verdict.state is State.NOT_APPLICABLE:
         return "not applicable"
     if verdict.poses is None or verdict.worst_utilisation is None:
-        return f"not evaluated: {missing_words(verdict)} unknown"
-    return f"{verdict.poses}/{total}  ×{verdict.worst_utilisation:.3f}"
+        return f"not evaluated: {missing_words(verdict.missing)} unknown"
+    worst = verdict.worst_utilisation
+    return f"{verdict.poses}/{total}  ×{worst:.3f}" if worst < LARGE else f"{verdict.poses}/{total}  ×{worst:.3g}"
 
 
-def missing_words(verdict: CheckVerdict) -> str:
-    """Names of the figures that a check lacks."""
-    return ", ".join(FIGURE_NAMES[name] for name in verdict.missing)
-
-
-def verdict_word(actuator: RankedActuator) -> str:
-    """Verdict for people."""
-    return {Verdict.MEETS: "meets", Verdict.UNDECIDED: "undecided", Verdict.FAILS: "fails"}[actuator.verdict]
+def missing_words(figures: Sequence[str]) -> str:
+    """Names of figures that a check lacks."""
+    return ", ".join(FIGURE_NAMES[name] for name in figures)
 
 
 def heading(selection: Selection) -> list[str]:
@@ -75,12 +79,13 @@ def basis(study: Study) -> dict[str, str]:
         Name of the item to its description, with units.
     """
     box = ", ".join(f"{axis} {low:.3f} to {high:.3f} m" for axis, (low, high) in zip("xyz", study.region, strict=True))
-    grid = " × ".join(str(points) for points in study.table.workspace.points)
+    points = study.table.workspace.points
+    grid = " × ".join(str(count) for count in points)
     orientations = "; ".join(f"({', '.join(f'{angle:g}' for angle in one)})" for one in study.orientations)
     several = ", at all of which a position has to hold" if len(study.orientations) > 1 else ""
     return {
         "box": box,
-        "grid": f"{grid} positions, both ends included",
+        "grid": f"{grid} positions, both ends included{'; a single point in the middle' if 1 in points else ''}",
         "orientations": f"(ψ, θ, φ) = {orientations} rad{several}",
         "tensions": f"{study.tension_model.value} (published model: cables may push)",
         "motion set": motion_words(study),

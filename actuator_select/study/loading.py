@@ -1,7 +1,8 @@
 """From a study file to a study: parse, override, validate, build."""
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
+from copy import deepcopy
+from dataclasses import dataclass, replace
 from importlib import resources
 from math import prod
 from pathlib import Path
@@ -23,9 +24,29 @@ from actuator_select.study.overrides import apply_overrides
 from actuator_select.study.problems import study_problems
 from actuator_select.study.schema import MotionTable, RobotTable, StudyTable, WorkspaceTable
 
-MOST_POSES = 2_000_000  # some 4 GB of demand for eight cables
+MOST_CABLE_POSES = 8_000_000  # poses times cables; some 2.4 GB of demand
+VARIANT_TABLES = ("gravity_m_per_s2", "robot", "payload", "workspace", "motion", "tension", "checks")
 
 _STUDIES = resources.files("actuator_select") / "studies"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Variant:
+    """A study with some keys changed.
+
+    Attributes
+    ----------
+    title : str
+        Of the variant.
+    keys : tuple of str
+        The keys that it changes.
+    study : Study
+        The changed study.
+    """
+
+    title: str
+    keys: tuple[str, ...]
+    study: "Study"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -56,6 +77,8 @@ class Study:
         How the cables share the load.
     checks : tuple of Check
         Limits that have to hold.
+    variants : tuple of Variant
+        The same study read otherwise.
     """
 
     name: str
@@ -69,6 +92,7 @@ class Study:
     motion: MotionSet
     tension_model: TensionModel
     checks: tuple[Check, ...]
+    variants: tuple[Variant, ...] = ()
 
 
 def builtin_studies() -> list[str]:
@@ -158,13 +182,34 @@ def parse_study(text: str, *, place: str, overrides: Mapping[str, object] | None
     if overrides:
         text = _overridden(text, overrides, place)
     content = _parsed(text, place).unwrap()
+    study = _build(content, text, f"study {place!r}")
+    return replace(study, variants=tuple(_variants(study, content, place)))
+
+
+def _variants(study: Study, content: dict[str, object], place: str) -> Iterator[Variant]:
+    for index, one in enumerate(study.table.variant):
+        where = f"study {place!r}, variant[{index}]"
+        for key in one.set:
+            if key.split(".")[0].split("[")[0] not in VARIANT_TABLES:
+                problem = Problem(
+                    place=f"variant[{index}].set",
+                    value=repr(key),
+                    expected=f"a key of {', '.join(VARIANT_TABLES)}, which are what a variant may change",
+                )
+                raise InvalidStudy(f"{where} does not hold", [problem])
+        changed = deepcopy({key: value for key, value in content.items() if key != "variant"})
+        apply_overrides(changed, one.set)
+        yield Variant(title=one.title, keys=tuple(one.set), study=_build(changed, study.text, where))
+
+
+def _build(content: dict[str, object], text: str, place: str) -> Study:
     try:
         table = StudyTable.model_validate(content)
     except ValidationError as error:
-        raise InvalidStudy(f"study {place!r} does not hold", study_problems(error)) from error
+        raise InvalidStudy(f"{place} does not hold", study_problems(error)) from error
     workspace = table.workspace
-    _refuse_too_many_poses(workspace, place)
     robot, region = _robot(table.robot, workspace, place)
+    _refuse_too_many_poses(workspace, robot.cables, place)
     return Study(
         name=table.name,
         text=text,
@@ -206,7 +251,7 @@ def _read(study: str | Path) -> str:
     if isinstance(study, str) and study in names:
         return (_STUDIES / f"{study}.toml").read_text(encoding="utf-8")
     try:
-        return path.read_text(encoding="utf-8")
+        return path.read_text(encoding="utf-8-sig")
     except FileNotFoundError as error:
         known = did_you_mean(path.name, names)
         raise UnknownName(
@@ -234,16 +279,16 @@ def _overridden(text: str, overrides: Mapping[str, object], place: str) -> str:
     return tomlkit.dumps(document)
 
 
-def _refuse_too_many_poses(workspace: WorkspaceTable, place: str) -> None:
-    poses = prod(workspace.points) * len(workspace.orientations_rad)
-    if poses > MOST_POSES:
+def _refuse_too_many_poses(workspace: WorkspaceTable, cables: int, place: str) -> None:
+    poses, most = prod(workspace.points) * len(workspace.orientations_rad), MOST_CABLE_POSES // cables
+    if poses > most:
         problem = Problem(
             place="workspace.points",
             value=f"{list(workspace.points)} at {len(workspace.orientations_rad)} orientations are {poses:,} poses",
-            expected=f"at most {MOST_POSES:,}",
+            expected=f"at most {most:,} with {cables} cables, which take some 2 GB of memory",
             remedy="take a coarser grid, or parts of the workspace one after the other with box_m",
         )
-        raise InvalidStudy(f"study {place!r} does not hold", [problem])
+        raise InvalidStudy(f"{place} does not hold", [problem])
 
 
 def _robot(robot: RobotTable, workspace: WorkspaceTable, place: str) -> tuple[CableRobot, FloatArray]:
@@ -255,7 +300,7 @@ def _robot(robot: RobotTable, workspace: WorkspaceTable, place: str) -> tuple[Ca
                 value='"builder" for a robot with explicit cables',
                 expected="box_m = [[x0, x1], [y0, y1], [z0, z1]] in m",
             )
-            raise InvalidStudy(f"study {place!r} does not hold", [problem])
+            raise InvalidStudy(f"{place} does not hold", [problem])
         frame_anchors = np.array([cable.frame_anchor_m for cable in robot.cable], dtype=np.float64)
         platform_anchors = np.array([cable.platform_anchor_m for cable in robot.cable], dtype=np.float64)
         return CableRobot(frame_anchors=frame_anchors, platform_anchors=platform_anchors), box
@@ -269,7 +314,7 @@ def _robot(robot: RobotTable, workspace: WorkspaceTable, place: str) -> tuple[Ca
             f"{[float(length) for length in frame]} m, on every axis",
             remedy="make the carrier smaller or the frame larger",
         )
-        raise InvalidStudy(f"study {place!r} does not hold", [problem])
+        raise InvalidStudy(f"{place} does not hold", [problem])
     return cpr8(frame, carrier), region if box is None else box
 
 

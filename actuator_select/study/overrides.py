@@ -1,7 +1,7 @@
 """``key=value``: change any key of a study without editing its file."""
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping, MutableMapping, Sequence
 from itertools import pairwise
 from typing import Any
 
@@ -63,13 +63,13 @@ def _toml_value(text: str) -> object | None:
     return content["value"] if len(content) == 1 else None
 
 
-def apply_overrides(document: tomlkit.TOMLDocument, overrides: Mapping[str, object]) -> None:
-    """Set keys of a parsed study file in place; comments and order stay.
+def apply_overrides(document: MutableMapping[str, Any], overrides: Mapping[str, object]) -> None:
+    """Set keys of a study in place; in a parsed study file comments and order stay.
 
     Parameters
     ----------
-    document : tomlkit.TOMLDocument
-        The study.
+    document : mutable mapping
+        The study, plain or as tomlkit parsed it.
     overrides : mapping of str to object
         Dotted key to value. A table that is missing is made, an unknown key is left for the study's validation.
 
@@ -84,7 +84,7 @@ def apply_overrides(document: tomlkit.TOMLDocument, overrides: Mapping[str, obje
         try:
             for step, following in pairwise(steps):
                 if isinstance(following, str) and isinstance(step, str) and step not in container:
-                    container[step] = tomlkit.table()
+                    container[step] = tomlkit.table() if isinstance(document, tomlkit.TOMLDocument) else {}
                 container = container[step]
             container[steps[-1]] = value
         except (KeyError, IndexError, TypeError, TOMLKitError) as error:

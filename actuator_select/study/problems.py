@@ -28,6 +28,7 @@ _EXPECTED = {
     "bool_type": "true or false",
     "string_type": "text in quotes",
     "string_too_short": "text that is not empty",
+    "string_unicode": "text of Unicode characters",
     "finite_number": "a finite number",
     "tuple_type": "a list in brackets",
     "model_type": "a table",
@@ -48,7 +49,17 @@ def study_problems(error: ValidationError) -> list[Problem]:
     list of Problem
         In the order of the schema.
     """
-    return [_problem(details) for details in error.errors(include_url=False)]
+    found = error.errors(include_url=False)
+    places = [details["loc"] for details in found]
+    return [
+        _problem(details)
+        for details in found
+        # A list whose entries are wrong is also counted as too short: the entries tell enough.
+        if details["type"] != "too_short"
+        or not any(
+            len(place) > len(details["loc"]) and place[: len(details["loc"])] == details["loc"] for place in places
+        )
+    ]
 
 
 def _problem(details: ErrorDetails) -> Problem:

@@ -4,9 +4,11 @@ from typing import Annotated, Literal, Self
 
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
-Number = Annotated[float, Field(strict=True, allow_inf_nan=False)]
-Positive = Annotated[float, Field(strict=True, allow_inf_nan=False, gt=0.0)]
-NotNegative = Annotated[float, Field(strict=True, allow_inf_nan=False, ge=0.0)]
+LARGE, SMALL = 1e6, 1e-6  # in any unit of a study; beyond them stands a slip, and arithmetic that overflows
+
+Number = Annotated[float, Field(strict=True, allow_inf_nan=False, ge=-LARGE, le=LARGE)]
+Positive = Annotated[float, Field(strict=True, allow_inf_nan=False, ge=SMALL, le=LARGE)]
+NotNegative = Annotated[float, Field(strict=True, allow_inf_nan=False, ge=0.0, le=LARGE)]
 Percent = Annotated[float, Field(strict=True, allow_inf_nan=False, ge=0.0, le=100.0)]
 Text = Annotated[str, Field(strict=True, min_length=1)]
 Count = Annotated[int, Field(strict=True, ge=1)]
@@ -67,9 +69,11 @@ class WorkspaceTable(Table):
     def _one_region(self) -> Self:
         if (self.region is None) == (self.box_m is None):
             raise ValueError('either region = "builder" or box_m = [[x0, x1], [y0, y1], [z0, z1]] in m; not both')
-        for axis, interval in zip("xyz", self.box_m or (), strict=False):
+        for axis, interval, points in zip("xyz", self.box_m or (), self.points, strict=False):
             if interval[0] > interval[1]:
                 raise ValueError(f"box_m with the lower end first; {axis} runs from {interval[0]} to {interval[1]} m")
+            if interval[0] == interval[1] and points > 1:
+                raise ValueError(f"a single point along {axis}, where box_m has no extent; points says {points}")
         return self
 
 
@@ -81,7 +85,7 @@ class MotionTable(Table):
     acceleration_time_s: Positive
     deceleration_time_s: Positive
     centripetal: Annotated[bool, Field(strict=True)] = True
-    velocity_intervals: Count = 6
+    velocity_intervals: Annotated[int, Field(strict=True, ge=2, le=60)] = 6
     acceleration_levels: Annotated[tuple[Annotated[Number, Field(ge=-1.0, le=1.0)], ...], Field(min_length=1)] = (
         -1.0,
         1.0,

@@ -160,7 +160,7 @@ BAD_INPUT = [
     (["rank"], "Missing argument 'STUDY'"),
     (
         ["rank", "cpr8", "--set", "motion.acceleration_time_s=0"],
-        "motion.acceleration_time_s: 0, expected more than 0 [s]",
+        "motion.acceleration_time_s: 0, expected at least 1e-06 [s]",
     ),
     (["rank", "cpr8", "--set", "motion.speed_max_m_per_s=nan"], "expected a finite number [m/s]"),
     (["rank", "cpr8", "--set", "motion.speed_max_m_per_s=inf"], "expected a finite number [m/s]"),
