@@ -4,9 +4,13 @@ Commands are imported when they are called, so that ``--help`` answers at once.
 """
 
 import importlib
+import io
 import os
+import signal
 import sys
+import threading
 from collections.abc import Sequence
+from types import FrameType
 
 import click
 
@@ -76,9 +80,16 @@ def main(arguments: Sequence[str] | None = None) -> int:
     int
         0 done, 1 a fault of the program, 2 the question cannot be posed, 130 interrupted.
     """
+    interrupted = _watch_for_interrupts()
     try:
-        return _run(arguments)
+        _prepare_streams()
+        status = _run(arguments)
+        sys.stdout.flush()
+    except OSError as error:
+        return _output_failed(error)
     except Exception as error:
+        if interrupted:  # libraries may turn an interrupt into an error of their own
+            return _say_interrupted()
         if os.environ.get("ACTUATOR_SELECT_TRACEBACK"):
             raise
         click.echo(
@@ -87,6 +98,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             err=True,
         )
         return EXIT_OUR_FAULT
+    return status
 
 
 def _run(arguments: Sequence[str] | None) -> int:
@@ -102,9 +114,45 @@ def _run(arguments: Sequence[str] | None) -> int:
         click.echo(f"Error: {error}", err=True)
         return EXIT_BAD_INPUT
     except (click.Abort, KeyboardInterrupt):
-        click.echo("Interrupted.", err=True)
-        return EXIT_INTERRUPTED
-    except BrokenPipeError:
-        # The reader (head, less) has what it wanted; the interpreter must not complain when it flushes at exit.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return _say_interrupted()
+    except SystemExit:
+        # Click leaves so when the reader of a pipe (head, less) has what it wanted, and after shell completion.
+        return EXIT_DONE
     return EXIT_DONE
+
+
+def _prepare_streams() -> None:
+    """Write UTF-8 whatever the locale says, and survive closed streams."""
+    for name in ("stdout", "stderr"):
+        stream = getattr(sys, name)
+        if stream is None:
+            setattr(sys, name, open(os.devnull, "w", encoding="utf-8"))  # noqa: PTH123, SIM115 - lives as long as we
+        elif isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(encoding="utf-8", errors="replace")
+
+
+def _watch_for_interrupts() -> list[int]:
+    """A list that is not empty once Ctrl-C was pressed; KeyboardInterrupt is raised as ever."""
+    seen: list[int] = []
+
+    def note(number: int, frame: FrameType | None) -> None:
+        seen.append(number)
+        signal.default_int_handler(number, frame)
+
+    if threading.current_thread() is threading.main_thread():
+        signal.signal(signal.SIGINT, note)
+    return seen
+
+
+def _say_interrupted() -> int:
+    click.echo("Interrupted.", err=True)
+    return EXIT_INTERRUPTED
+
+
+def _output_failed(error: OSError) -> int:
+    """End after the result could not be printed; nothing may be left for the interpreter to flush at its exit."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    if isinstance(error, BrokenPipeError):  # the reader (head, less) has what it wanted
+        return EXIT_DONE
+    click.echo(f"Error: cannot write the result: {error.strerror or error}; make room, or write elsewhere", err=True)
+    return EXIT_BAD_INPUT

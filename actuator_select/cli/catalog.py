@@ -192,13 +192,14 @@ def import_file(file: Path, kind: str | None, dry_run: bool, update: bool, datab
 
     with opened(database) as catalogue, console.progress("Reading") as progress:
         report = catalogue.import_csv(file, kind, dry_run=dry_run, update=update, progress=progress)
-    warn_of(check_rows(report.kind, report.rows))
+    # Said at once: what has been written is written, whatever interrupts the checks that follow.
     done = f"{report.added} added, {report.updated} changed, {report.unchanged} already there"
     if dry_run:
         console.say(f"Dry run of {file}: {report.kind} would be {done}. Nothing was written.")
     else:
         console.say(f"Imported {file}: {report.kind}: {done}.")
         console.say(f"Next: actuator-select catalog list {report.kind}")
+    warn_of(check_rows(report.kind, report.rows))
 
 
 @command.command("export")

@@ -10,15 +10,16 @@ from actuator_select.database.fields import Field, Kind
 from actuator_select.errors import Problem
 
 UNLIMITED = "unlimited"
+LARGEST_FIGURE, SMALLEST_FIGURE = 1e12, 1e-12  # in any datasheet unit; beyond them arithmetic would overflow
 
 Value: TypeAlias = float | int | str | None
 """None is unknown, an infinite float unlimited."""
 
 _DECIMAL_COMMA = re.compile(r"[+-]?\d+,\d+([eE][+-]?\d+)?")
-_WHOLE = re.compile(r"[+-]?\d{1,18}")
-_NUMBER = re.compile(r"[+-]?(\d+(\.\d*)?|\.\d+)([eE][+-]?\d+)?")
-_QUANTITY = re.compile(r"\s*([+-]?[\d.]+(?:[eE][+-]?\d+)?)\s*[^\d\s.,].*")
-_NO_TEXT = re.compile("[\x00\ud800-\udfff]")
+_WHOLE = re.compile(r"[+-]?[0-9]{1,18}")
+_NUMBER = re.compile(r"[+-]?([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][+-]?[0-9]+)?")
+_QUANTITY = re.compile(r"([+-]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]+)?)\s*(?:[^\W\d_]|[%°])[^0-9]*")
+_NO_TEXT = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\x7f\ud800-\udfff]")  # they garble terminals and files
 _TOO_LARGE = "this is more than a number can hold"
 _LONG_NUMBER = 1e15  # whole numbers from here on are written with an exponent
 _QUOTED_LENGTH = 60  # characters of a value that a message repeats
@@ -202,5 +203,7 @@ def _check_range(field: Field, number: float) -> None:
     )
     if too_small and field.unit == "%" and 0.0 < number <= 1.0:
         raise Refused(field.expected, f"a fraction was given, write {_shortest(round(100.0 * number, 10))}")
+    if abs(number) > LARGEST_FIGURE or 0.0 < abs(number) < SMALLEST_FIGURE:
+        raise Refused(field.expected, "no part has such a figure; check the unit")
     if too_small or (field.maximum is not None and number > field.maximum):
         raise Refused(field.expected, "leave it empty if it is unknown" if number == 0.0 and too_small else "")

@@ -68,7 +68,7 @@ def make_engine(url: sa.URL) -> sa.Engine:
     Parameters
     ----------
     url : sqlalchemy.URL
-        Of the database; the folder of an SQLite file is made.
+        Of the database; of the folders only the user's data folder is made.
 
     Returns
     -------
@@ -194,6 +194,14 @@ def _is_known(url: sa.URL) -> bool:
 
 
 def _make_folder(folder: Path) -> None:
+    """Make the user's data folder; a folder that the user names has to exist, because it may be a slip."""
+    if folder.is_dir():
+        return
+    if folder != user_data_dir():
+        raise CatalogueUnavailable(
+            f"there is no folder {folder} for the catalogue; make it, or name another file with --database or "
+            f"{ENVIRONMENT_VARIABLE}"
+        )
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:

@@ -129,10 +129,6 @@ def read_records(kind: Kind, table: CsvTable, progress: Progress | None = None) 
         problems += refused
         if progress is not None and (done % _LINES_PER_REPORT == 0 or done == len(table.lines)):
             progress(done, len(table.lines))
-    if not table.lines:
-        problems.append(
-            Problem(place=table.name, value="a header and no rows", expected="at least one row", remedy="add rows")
-        )
     return records, problems
 
 

@@ -1,8 +1,11 @@
 """The command line: contract, bad input, and the README's commands."""
 
 import json
+import os
 import re
 import shlex
+import subprocess
+import sys
 from collections.abc import Callable
 from pathlib import Path
 
@@ -10,7 +13,7 @@ import click
 import pytest
 
 from actuator_select.cli import COMMANDS, main
-from actuator_select.cli import command as program
+from actuator_select.cli import command as root
 
 README = (Path(__file__).parents[2] / "README.md").read_text(encoding="utf-8")
 Run = Callable[..., tuple[int, str, str]]
@@ -62,10 +65,10 @@ def test_the_readme_has_two_set_up_lines_on_its_first_screen() -> None:
 
 
 def all_commands() -> dict[str, click.Command]:
-    context = click.Context(program)
+    context = click.Context(root)
     found = {}
     for name in COMMANDS:
-        one = program.get_command(context, name)
+        one = root.get_command(context, name)
         assert one is not None
         if isinstance(one, click.Group):
             found |= {f"{name} {sub}": inner for sub, inner in one.commands.items()}
@@ -172,6 +175,8 @@ BAD_INPUT = [
     (["rank", "cpr8", "--where", "rated_powr_w > 10"], "rated_power_w"),
     (["rank", "cpr8", "--where", "rated_power_w >"], "^"),
     (["rank", "cpr8", "--require", "120"], "120"),
+    (["rank", "cpr8", "--require", "nan"], "expected a number from 0 to 100"),
+    (["rank", "cpr8", "--database", "missing/c.db"], "there is no folder"),
     (["report", "cpr8", "--output", "missing/cpr8.html"], "cannot write"),
     (["simulate", "cpr8", "Actuator 9", "--from", "0,0,-1", "--to", "1,1,-1"], "did you mean"),
     (["simulate", "cpr8", "Actuator 1", "--from", "0,0", "--to", "1,1,-1"], "three numbers"),
@@ -227,3 +232,39 @@ def test_a_fault_of_the_program_is_status_1_and_says_so(run: Run, monkeypatch: p
     status, _, err = run("rank", "cpr8")
     assert status == 1
     assert "a fault of actuator-select" in err
+
+
+def program(tmp_path: Path, arguments: str, **environment: str) -> subprocess.CompletedProcess[bytes]:
+    """Run the program in a shell, as users do."""
+    return subprocess.run(
+        ["bash", "-c", f"{sys.executable} -m actuator_select {arguments}"],
+        cwd=tmp_path,
+        env=os.environ | {"ACTUATOR_SELECT_DATABASE": str(tmp_path / "c.db")} | environment,
+        capture_output=True,
+        check=False,
+    )
+
+
+def test_a_reader_that_leaves_early_is_no_fault(tmp_path: Path) -> None:
+    done = program(tmp_path, "rank cpr8 --format json | true; exit ${PIPESTATUS[0]}")
+    assert done.returncode == 0
+    assert b"Traceback" not in done.stderr
+    assert b"fault" not in done.stderr
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs a device that is always full")
+def test_a_full_disk_is_told_and_is_no_fault_of_the_program(tmp_path: Path) -> None:
+    done = program(tmp_path, "rank cpr8 > /dev/full")
+    assert done.returncode == 2
+    assert b"cannot write the result: No space left on device" in done.stderr
+
+
+def test_any_locale_prints_utf_8(tmp_path: Path) -> None:
+    done = program(tmp_path, "rank cpr8", PYTHONIOENCODING="ascii", LC_ALL="C", PYTHONUTF8="0")
+    assert done.returncode == 0
+    assert "(ψ, θ, φ)" in done.stdout.decode("utf-8")
+
+
+def test_a_closed_stream_is_survived(tmp_path: Path) -> None:
+    assert program(tmp_path, "rank cpr8 2>&-").returncode == 0
+    assert program(tmp_path, "rank cpr8 >&-").returncode == 0

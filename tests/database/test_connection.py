@@ -30,8 +30,8 @@ def execute(path: Path, statement: str) -> None:
     connection.close()
 
 
-def test_first_use_makes_folder_tables_and_rows_and_says_so(tmp_path: Path) -> None:
-    path = tmp_path / "deep" / "folder" / "catalogue.db"
+def test_first_use_makes_tables_and_rows_and_says_so(tmp_path: Path) -> None:
+    path = tmp_path / "catalogue.db"
     with open_catalogue(path) as catalogue:
         assert catalogue.count("actuators") == 5
         assert catalogue.notices == (f"Made the catalogue {path}.",)
@@ -71,10 +71,18 @@ def test_an_address_that_leads_nowhere_is_explained(url: str, words: str) -> Non
         open_catalogue(url)
 
 
-def test_a_folder_that_cannot_be_made_is_explained(tmp_path: Path) -> None:
+def test_a_named_folder_that_does_not_exist_is_not_made_because_it_may_be_a_slip(tmp_path: Path) -> None:
+    with pytest.raises(CatalogueUnavailable, match="there is no folder"):
+        open_catalogue(tmp_path / "deep" / "catalogue.db")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_data_folder_that_cannot_be_made_is_explained(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "file").touch()
+    monkeypatch.delenv("ACTUATOR_SELECT_DATABASE", raising=False)
+    monkeypatch.setattr("actuator_select.database.connection.user_data_dir", lambda: tmp_path / "file" / "data")
     with pytest.raises(CatalogueUnavailable, match="cannot make the folder"):
-        open_catalogue(tmp_path / "file" / "catalogue.db")
+        open_catalogue()
 
 
 def test_a_folder_is_no_database(tmp_path: Path) -> None:

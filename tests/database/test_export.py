@@ -9,12 +9,15 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from actuator_select.database import Catalogue, open_catalogue
+from actuator_select.database.cells import LARGEST_FIGURE, SMALLEST_FIGURE
 from actuator_select.database.fields import Field
 from actuator_select.database.kinds import KINDS
 from actuator_select.errors import OutputNotWritable
 
+CONTROLS = "".join(map(chr, {*range(32), 127} - {9, 10, 13}))  # refused in texts: they garble terminals
+
 TEXTS = st.one_of(
-    st.text(st.characters(blacklist_categories=["Cs"], blacklist_characters="\x00"), min_size=1).filter(str.strip),
+    st.text(st.characters(blacklist_categories=["Cs"], blacklist_characters=CONTROLS), min_size=1).filter(str.strip),
     st.sampled_from(
         ['"', "a,b", "a\nb", "a\r\nb", "a\rb", " a ", '=HYPERLINK("x")', "unlimited", "Ω µ – 日本", "None"]
     ),
@@ -34,7 +37,10 @@ def values_of(field: Field) -> st.SearchStrategy[object]:
         some = st.integers(1, int(field.maximum or 1))
     else:
         low = field.minimum if field.minimum is not None else field.exclusive_minimum
-        numbers = st.floats(low, field.maximum, exclude_min=field.minimum is None, allow_infinity=False)
+        high = LARGEST_FIGURE if field.maximum is None else field.maximum
+        numbers = st.floats(low, high, exclude_min=field.minimum is None, allow_infinity=False).filter(
+            lambda number: number == 0.0 or abs(number) >= SMALLEST_FIGURE
+        )
         some = st.one_of(numbers, st.just(inf)) if field.may_be_unlimited else numbers
     return some if field.required else st.none() | some
 
