@@ -71,7 +71,8 @@ def drive_cloud(demand: Demand, actuator: ActuatorSet, points: int, positions: I
     if len(every) > MOST_COVERED:
         every = every[generator.choice(len(every), size=MOST_COVERED, replace=False)]
     pose, cable, choice, corner = np.vstack([every, drawn]).T
-    speed, centripetal = _motions(demand, pose, cable, choice)
+    share = np.concatenate([np.linspace(-1.0, 1.0, SPEEDS)[every[:, 2] % SPEEDS], generator.uniform(-1.0, 1.0, points)])
+    speed, centripetal = _motions(demand, pose, cable, choice, share)
     acceleration = (demand.directions[pose, cable] * corners[corner]).sum(axis=1) - centripetal
     per_acceleration = demand.tension_per_acceleration[pose, cable]
     tension = demand.static_tension[pose, cable] + (per_acceleration * corners[corner]).sum(axis=1)
@@ -84,10 +85,13 @@ def drive_cloud(demand: Demand, actuator: ActuatorSet, points: int, positions: I
     )
 
 
-def _motions(demand: Demand, pose: IntArray, cable: IntArray, choice: IntArray) -> tuple[FloatArray, FloatArray]:
+def _motions(
+    demand: Demand, pose: IntArray, cable: IntArray, choice: IntArray, share: FloatArray
+) -> tuple[FloatArray, FloatArray]:
     """Cable speed and centripetal term of the chosen velocity, each (S,).
 
-    Of the ball, what matters to a cable is its own speed, and whether the rest of the greatest speed goes across it.
+    Of the ball, what matters to a cable is its own speed, a share of the greatest, and whether the rest of the
+    greatest speed goes across it.
     """
     motion = demand.motion
     scale = centripetal_scale(demand.lengths, motion)[pose, cable]
@@ -95,6 +99,6 @@ def _motions(demand: Demand, pose: IntArray, cable: IntArray, choice: IntArray) 
         velocity = motion.velocities[choice]
         speed = (demand.directions[pose, cable] * velocity).sum(axis=1)
         return speed, ((velocity**2).sum(axis=1) - speed**2) * scale
-    speed = np.linspace(-motion.speed, motion.speed, SPEEDS)[choice % SPEEDS]
+    speed = motion.speed * share
     across = np.where(choice < SPEEDS, motion.speed**2 - speed**2, 0.0)
     return speed, across * scale

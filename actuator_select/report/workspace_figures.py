@@ -116,6 +116,7 @@ def _workspace(axes: Axes3D, study: Study, feasible: BoolArray) -> None:
     axes.set_xlabel("x [m]", labelpad=-4)
     axes.set_ylabel("y [m]", labelpad=-4)
     axes.set_zlabel("z [m]", labelpad=-5)
+    axes.locator_params(nbins=5)
     axes.tick_params(labelsize=6.5, pad=-2)
     extent = np.vstack([positions, study.robot.frame_anchors])
     low, high = extent.min(axis=0), np.maximum(extent.max(axis=0), extent.min(axis=0) + 1e-3)
