@@ -46,7 +46,7 @@ class TrapezoidalProfile:
         return np.cumsum([0.0, ramp, cruise, brake])
 
     def motion(self, times: FloatArray, phase: int) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Way, speed and acceleration along the line as the given phase has them.
+        """Path covered, speed and acceleration along the line as the given phase has them.
 
         Parameters
         ----------
@@ -65,8 +65,8 @@ class TrapezoidalProfile:
             acceleration = np.full_like(times, self.acceleration)
             return self.acceleration * times**2 / 2.0, self.acceleration * times, acceleration
         if phase == 1:
-            way = self.speed**2 / (2.0 * self.acceleration) + self.speed * (times - start[1])
-            return way, np.full_like(times, self.speed), np.zeros_like(times)
+            path = self.speed**2 / (2.0 * self.acceleration) + self.speed * (times - start[1])
+            return path, np.full_like(times, self.speed), np.zeros_like(times)
         left = start[3] - times
         acceleration = np.full_like(times, -self.deceleration)
         return self.distance - self.deceleration * left**2 / 2.0, self.deceleration * left, acceleration
@@ -229,12 +229,12 @@ class DrivenMove:
         Eqs. 18-22 in Filipović & Kevac 2018, doi:10.22190/FUACR1802071F.
         """
         move, actuator = self.move, self.actuator
-        way, speed, acceleration = np.empty_like(times), np.empty_like(times), np.empty_like(times)
+        path, speed, acceleration = np.empty_like(times), np.empty_like(times), np.empty_like(times)
         for phase in range(3):
             chosen = phases == phase
-            way[chosen], speed[chosen], acceleration[chosen] = move.profile.motion(times[chosen], phase)
+            path[chosen], speed[chosen], acceleration[chosen] = move.profile.motion(times[chosen], phase)
         line = (move.stop - move.start) / move.profile.distance
-        geometry = cable_geometry(self.robot, move.start + way[:, None] * line, move.orientation)
+        geometry = cable_geometry(self.robot, move.start + path[:, None] * line, move.orientation)
         tensions = pseudo_inverse_tensions(geometry.structure_matrix, self.wrench)
         tension = tensions.static + tensions.per_acceleration @ line * acceleration[:, None]
         along = geometry.directions @ line  # cosine between cable and line

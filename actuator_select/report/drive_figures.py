@@ -55,6 +55,23 @@ def torque_speed_plane(detail: ActuatorDetail) -> Figure:
     axes.axvline(0.0, color="black", linewidth=0.6)
     axes.set_xlabel("motor speed, winding in positive [rpm]")
     axes.set_ylabel("motor torque [N m]")
+    _name_quadrants(axes, width, height)
+    axes.legend(
+        handles=[
+            Line2D([], [], color=BLUE, linewidth=1.4, label="rated torque and rated speed (limits of blue)"),
+            Line2D([], [], color=RED, linewidth=1.4, linestyle="--", label="full voltage (limit of orange)"),
+            Line2D([], [], color=BLUE, marker="o", linestyle="", markersize=3, label="load torque"),
+            Line2D([], [], color=ORANGE, marker="o", linestyle="", markersize=3, label="load and rotor acceleration"),
+        ],
+        loc="upper center",
+        bbox_to_anchor=(0.5, -0.17),
+        ncols=2,
+    )
+    return figure
+
+
+def _name_quadrants(axes: Axes, width: float, height: float) -> None:
+    """Say in each corner what the motor does there."""
     for x, y, text in (
         (1, 1, "winding in, driving"),
         (-1, 1, "winding out, braking"),
@@ -70,18 +87,6 @@ def torque_speed_plane(detail: ActuatorDetail) -> Figure:
             fontsize=7.5,
             color=GREY,
         )
-    axes.legend(
-        handles=[
-            Line2D([], [], color=BLUE, linewidth=1.4, label="rated torque and rated speed (limits of blue)"),
-            Line2D([], [], color=RED, linewidth=1.4, linestyle="--", label="full voltage (limit of orange)"),
-            Line2D([], [], color=BLUE, marker="o", linestyle="", markersize=3, label="load torque"),
-            Line2D([], [], color=ORANGE, marker="o", linestyle="", markersize=3, label="load and rotor acceleration"),
-        ],
-        loc="upper center",
-        bbox_to_anchor=(0.5, -0.17),
-        ncols=2,
-    )
-    return figure
 
 
 def _voltage_lines(axes: Axes, detail: ActuatorDetail) -> None:

@@ -5,13 +5,15 @@ from textwrap import fill, shorten
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.collections import QuadMesh
 from matplotlib.colors import BoundaryNorm, ListedColormap, TwoSlopeNorm
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 from mpl_toolkits.mplot3d.axes3d import Axes3D
+from numpy.typing import NDArray
 
 from actuator_select.model.actuation import ROUNDING
-from actuator_select.model.arrays import BoolArray, FloatArray
+from actuator_select.model.arrays import BoolArray, FloatArray, IntArray
 from actuator_select.report.style import BLUE, CHECK_COLOURS, GREY, RED, house_style, new_figure
 from actuator_select.selection import RankedActuator, Selection
 from actuator_select.selection.dossier import ActuatorDetail
@@ -165,27 +167,12 @@ def slice_panels(study: Study, detail: ActuatorDetail) -> Figure:
         figure.subplots(rows, 2 * len(levels) // rows, squeeze=False, sharex=True, sharey=True), (2, len(levels))
     )
     colours = [CHECK_COLOURS[check] for check in detail.checks]
-    norm = TwoSlopeNorm(vcenter=1.0, vmin=0.0, vmax=UTILISATION_SHOWN)
     shaded = None
     for column, level in enumerate(levels):
-        values = np.take(utilisation, column, axis=axis)
-        which = np.take(critical, column, axis=axis)
-        upper, lower = panels[0, column], panels[1, column]
-        upper.pcolormesh(
-            *edges,
-            which.T,
-            cmap=ListedColormap(colours),
-            norm=BoundaryNorm(np.arange(len(colours) + 1) - 0.5, len(colours)),
-            rasterized=True,
-        )
-        _cross_out(upper, edges, values)
-        shaded = lower.pcolormesh(*edges, values.T, cmap="RdYlBu_r", norm=norm, rasterized=True)
-        _cross_out(lower, edges, values)
-        upper.set_title(f"{'xyz'[axis]} = {heights[level]:.2f} m", fontsize=8.5)
-        lower.set_xlabel(f"{'xyz'[first]} [m]")
-        for one in (upper, lower):
-            one.set_aspect("equal")
-            one.tick_params(labelsize=7)
+        values, which = np.take(utilisation, column, axis=axis), np.take(critical, column, axis=axis)
+        shaded = _slice(panels[:, column], edges, values, which, colours)
+        panels[0, column].set_title(f"{'xyz'[axis]} = {heights[level]:.2f} m", fontsize=8.5)
+        panels[1, column].set_xlabel(f"{'xyz'[first]} [m]")
     for row in range(2):
         panels[row, 0].set_ylabel(f"{'xyz'[second]} [m]")
     if shaded is not None:
@@ -199,6 +186,27 @@ def slice_panels(study: Study, detail: ActuatorDetail) -> Figure:
         ncols=len(detail.checks) + 1,
     )
     return figure
+
+
+def _slice(
+    pair: NDArray[np.object_], edges: Sequence[FloatArray], values: FloatArray, which: IntArray, colours: list[str]
+) -> QuadMesh:
+    """Draw one slice twice: the closest check, and the utilisation, which is returned for the colour bar."""
+    upper, lower = pair
+    upper.pcolormesh(
+        *edges,
+        which.T,
+        cmap=ListedColormap(colours),
+        norm=BoundaryNorm(np.arange(len(colours) + 1) - 0.5, len(colours)),
+        rasterized=True,
+    )
+    norm = TwoSlopeNorm(vcenter=1.0, vmin=0.0, vmax=UTILISATION_SHOWN)
+    shaded: QuadMesh = lower.pcolormesh(*edges, values.T, cmap="RdYlBu_r", norm=norm, rasterized=True)
+    for axes in pair:
+        _cross_out(axes, edges, values)
+        axes.set_aspect("equal")
+        axes.tick_params(labelsize=7)
+    return shaded
 
 
 def _sliced(study: Study) -> tuple[int, list[int]]:
