@@ -58,6 +58,22 @@ def test_the_counts_in_the_readme_are_what_its_commands_print(run: Run) -> None:
         assert [found[f"Actuator {number}"] for number in range(1, len(expected) + 1)] == expected, command
 
 
+def test_the_python_of_the_readme_runs(tmp_path: Path) -> None:
+    block = re.search(r"```python\n(.*?)```", README, flags=re.DOTALL)
+    assert block is not None
+    (tmp_path / "notebook.py").write_text(block[1] + "print(force.shape)", encoding="utf-8")
+    done = subprocess.run(
+        [sys.executable, "notebook.py"],
+        cwd=tmp_path,
+        env=os.environ | {"ACTUATOR_SELECT_DATABASE": str(tmp_path / "c.db")},
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    assert "filipovic-kevac-2018-1" in done.stdout
+    assert done.stdout.endswith("(216, 8)\n")
+
+
 def test_the_readme_has_two_set_up_lines_on_its_first_screen() -> None:
     lines = README.splitlines()
     assert [index for index, line in enumerate(lines) if line.startswith("python3 -m venv")][-1] < 25
