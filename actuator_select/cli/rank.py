@@ -65,7 +65,7 @@ def command(
 
 def print_ranking(selection: "Selection", *, only_meeting: bool) -> None:
     """Print what the percentage is of, the table, and the warnings."""
-    from actuator_select.selection.wording import check_cell, heading, share
+    from actuator_select.selection.wording import check_cell, heading, missing_notes, share
 
     for line in heading(selection):
         click.echo(line)
@@ -87,6 +87,8 @@ def print_ranking(selection: "Selection", *, only_meeting: bool) -> None:
         )
     if rows:
         console.emit_table(header, rows, right=range(3, 4 + len(checks)))
+        for note in missing_notes(actuators):
+            click.echo(note)
         click.echo(
             "Each check: positions that this limit alone allows, worst demand / limit over the whole motion set."
         )

@@ -46,9 +46,19 @@ def check_cell(verdict: CheckVerdict, total: int) -> str:
     if verdict.state is State.NOT_APPLICABLE:
         return "not applicable"
     if verdict.poses is None or verdict.worst_utilisation is None:
-        return f"not evaluated: {missing_words(verdict.missing)} unknown"
+        return "not evaluated"
     worst = verdict.worst_utilisation
     return f"{verdict.poses}/{total}  ×{worst:.3f}" if worst < LARGE else f"{verdict.poses}/{total}  ×{worst:.3g}"
+
+
+def missing_notes(actuators: Sequence[RankedActuator]) -> list[str]:
+    """Which figures keep which checks of which actuators from being evaluated, a sentence each."""
+    return [
+        f"{actuator.name}: {check.value} not evaluated, {missing_words(verdict.missing)} unknown."
+        for actuator in actuators
+        for check, verdict in actuator.checks.items()
+        if verdict.missing
+    ]
 
 
 def missing_words(figures: Sequence[str]) -> str:

@@ -113,7 +113,7 @@ def test_a_report_of_actuators_with_unknown_figures_says_so() -> None:
         page = render_report(selection, own, DETAILS)
     assert selection.ranked[0].verdict == "undecided"
     assert "cannot be decided, because figures are missing" in page
-    assert "not evaluated: rated torque" in page
+    assert "Bare: torque not evaluated, rated torque" in page
 
 
 def test_a_fine_grid_stays_under_the_size_limit(catalogue: Catalogue) -> None:
