@@ -26,6 +26,7 @@ NAME_WIDTH = 40  # characters of an actuator's name beside its bar
 FULL_WIDTH = 7.5  # inches
 LEVELS = 4  # slices of one actuator
 MOST_POINTS = 8000  # of one 3-D panel
+MOST_CROSSES = 400  # cells of one slice; beyond, the border is drawn
 UTILISATION_SHOWN = 2.0  # colours saturate there
 
 
@@ -179,9 +180,11 @@ def slice_panels(study: Study, detail: ActuatorDetail) -> Figure:
         bar = figure.colorbar(shaded, ax=list(panels[1]), extend="max", shrink=0.9, pad=0.01)
         bar.set_label("demand / limit", fontsize=8)
         bar.ax.tick_params(labelsize=7)
+    dense = _is_dense(np.take(utilisation, 0, axis=axis))
+    not_served = "black line: the limit" if dense else "×  not served"
     figure.legend(
         handles=[Patch(color=CHECK_COLOURS[check], label=f"{check.value} is closest") for check in detail.checks]
-        + [Patch(facecolor="white", edgecolor="black", label="×  not served")],
+        + [Patch(facecolor="white", edgecolor="black", label=not_served)],
         loc="outside lower center",
         ncols=len(detail.checks) + 1,
     )
@@ -203,7 +206,7 @@ def _slice(
     norm = TwoSlopeNorm(vcenter=1.0, vmin=0.0, vmax=UTILISATION_SHOWN)
     shaded: QuadMesh = lower.pcolormesh(*edges, values.T, cmap="RdYlBu_r", norm=norm, rasterized=True)
     for axes in pair:
-        _cross_out(axes, edges, values)
+        _mark_limit(axes, edges, values)
         axes.set_aspect("equal")
         axes.tick_params(labelsize=7)
     return shaded
@@ -227,10 +230,17 @@ def _edges(interval: FloatArray, points: int) -> FloatArray:
     return np.linspace(low - half, high + half, points + 1)
 
 
-def _cross_out(axes: Axes, edges: Sequence[FloatArray], values: FloatArray) -> None:
-    """Mark the cells over a limit, so that they show without colours."""
+def _mark_limit(axes: Axes, edges: Sequence[FloatArray], values: FloatArray) -> None:
+    """Mark the cells over a limit, so that they show without colours; where there are many, their border."""
     centres = [(edge[:-1] + edge[1:]) / 2.0 for edge in edges]
     x, y = np.meshgrid(*centres, indexing="ij")
     over = values > 1.0 + ROUNDING
+    if _is_dense(values):
+        axes.contour(x, y, over.astype(np.float64), levels=[0.5], colors="black", linewidths=1.0)
+        return
     size = float(np.clip(400.0 / max(values.size, 1), 1.0, 16.0))
     axes.scatter(x[over], y[over], marker="x", s=size, color="black", linewidths=0.6, rasterized=True)
+
+
+def _is_dense(values: FloatArray) -> bool:
+    return values.size > MOST_CROSSES and min(values.shape) > 1

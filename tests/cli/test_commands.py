@@ -58,6 +58,15 @@ def test_the_counts_in_the_readme_are_what_its_commands_print(run: Run) -> None:
         assert [found[f"Actuator {number}"] for number in range(1, len(expected) + 1)] == expected, command
 
 
+def test_the_shares_in_the_readme_are_what_its_commands_print(run: Run) -> None:
+    shares = []
+    for grid in ("[6,6,6]", "[50,50,40]"):
+        _, out, _ = run("rank", "cpr8", "--set", f"workspace.points={grid}", "--format", "json")
+        shares.append(f"{json.loads(out)['actuators'][0]['feasible_percent']:.1f} %")
+    text = " ".join(README.split())
+    assert f"a share of {shares[0]}, 100,000 positions give {shares[1]}" in text
+
+
 def test_the_python_of_the_readme_runs(tmp_path: Path) -> None:
     block = re.search(r"```python\n(.*?)```", README, flags=re.DOTALL)
     assert block is not None
