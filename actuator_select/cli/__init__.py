@@ -3,13 +3,15 @@
 Commands are imported when they are called, so that ``--help`` answers at once.
 """
 
+import errno
 import importlib
 import io
 import os
 import signal
 import sys
 import threading
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from types import FrameType
 
 import click
@@ -21,6 +23,7 @@ EXIT_DONE = 0
 EXIT_OUR_FAULT = 1
 EXIT_BAD_INPUT = 2
 EXIT_INTERRUPTED = 130
+OUTPUT_ERRORS = (errno.EPIPE, errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO)  # of a stream that takes no more
 
 COMMANDS = {
     "rank": ("actuator_select.cli.rank", "Rank actuators by the share of the workspace that they can serve."),
@@ -80,25 +83,29 @@ def main(arguments: Sequence[str] | None = None) -> int:
     int
         0 done, 1 a fault of the program, 2 the question cannot be posed, 130 interrupted.
     """
-    interrupted = _watch_for_interrupts()
-    try:
-        _prepare_streams()
-        status = _run(arguments)
-        sys.stdout.flush()
-    except OSError as error:
-        return _output_failed(error)
-    except Exception as error:
-        if interrupted:  # libraries may turn an interrupt into an error of their own
-            return _say_interrupted()
-        if os.environ.get("ACTUATOR_SELECT_TRACEBACK"):
-            raise
-        click.echo(
-            f"Error: a fault of actuator-select, not of your input: {type(error).__name__}: {error}\n"
-            "Set ACTUATOR_SELECT_TRACEBACK=1, repeat the command and report what it prints.",
-            err=True,
-        )
-        return EXIT_OUR_FAULT
-    return status
+    with _interrupts() as interrupts:
+        try:
+            _prepare_streams()
+            status = _run(arguments)
+            sys.stdout.flush()
+        except Exception as error:
+            if isinstance(error, OSError) and error.errno in OUTPUT_ERRORS:
+                return _output_failed(error)
+            if interrupts:  # libraries may turn an interrupt into an error of their own
+                return _say_interrupted()
+            if os.environ.get("ACTUATOR_SELECT_TRACEBACK"):
+                raise
+            return _admit_fault(error)
+        return status
+
+
+def _admit_fault(error: Exception) -> int:
+    click.echo(
+        f"Error: a fault of actuator-select, not of your input: {type(error).__name__}: {error}\n"
+        "Set ACTUATOR_SELECT_TRACEBACK=1, repeat the command and report what it prints.",
+        err=True,
+    )
+    return EXIT_OUR_FAULT
 
 
 def _run(arguments: Sequence[str] | None) -> int:
@@ -131,7 +138,8 @@ def _prepare_streams() -> None:
             stream.reconfigure(encoding="utf-8", errors="replace")
 
 
-def _watch_for_interrupts() -> list[int]:
+@contextmanager
+def _interrupts() -> Iterator[list[int]]:
     """A list that is not empty once Ctrl-C was pressed; KeyboardInterrupt is raised as ever."""
     seen: list[int] = []
 
@@ -139,9 +147,14 @@ def _watch_for_interrupts() -> list[int]:
         seen.append(number)
         signal.default_int_handler(number, frame)
 
-    if threading.current_thread() is threading.main_thread():
-        signal.signal(signal.SIGINT, note)
-    return seen
+    if threading.current_thread() is not threading.main_thread():
+        yield seen  # only the main thread may handle signals
+        return
+    before = signal.signal(signal.SIGINT, note)
+    try:
+        yield seen
+    finally:
+        signal.signal(signal.SIGINT, before)
 
 
 def _say_interrupted() -> int:
