@@ -1,5 +1,6 @@
 """Where the program's own files and the user's files are."""
 
+import errno
 import os
 import stat
 import tempfile
@@ -81,17 +82,18 @@ def replace_atomically(path: Path, content: str | bytes) -> None:
     OutputNotWritable
         If the folder is missing or the file cannot be written; an existing file is then untouched.
     """
-    data = content.encode() if isinstance(content, str) else content
+    # A name typed in another encoding must not cost the report.
+    data = content.encode(errors="replace") if isinstance(content, str) else content
     try:
-        target = path.resolve()
-        if target.is_dir():
-            raise IsADirectoryError(21, "it is a folder")
-        if target.exists() and not target.is_file():
-            target.write_bytes(data)
+        if path.is_dir():
+            raise IsADirectoryError(errno.EISDIR, "it is a folder")
+        if path.exists() and not path.is_file():
+            path.write_bytes(data)
             return
+        target = path.resolve(strict=path.is_symlink())
         mode = stat.S_IMODE(target.stat().st_mode) if target.exists() else 0o666 & ~_umask()
-        handle, temporary = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name}.")
-    except OSError as error:
+        handle, temporary = tempfile.mkstemp(dir=target.parent, prefix=".actuator-select-")
+    except (OSError, RuntimeError) as error:  # RuntimeError: links in a circle
         raise OutputNotWritable(_cannot_write(path, error)) from error
     try:
         with os.fdopen(handle, "wb") as file:
@@ -112,5 +114,6 @@ def _umask() -> int:
     return mask
 
 
-def _cannot_write(path: Path, error: OSError) -> str:
-    return f"cannot write {path}: {error.strerror or error}; choose a file in a folder that exists and may be written"
+def _cannot_write(path: Path, error: OSError | RuntimeError) -> str:
+    reason = getattr(error, "strerror", None) or str(error)
+    return f"cannot write {path}: {reason}; choose a file in a folder that exists and may be written"

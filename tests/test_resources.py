@@ -51,6 +51,16 @@ def test_a_failed_write_leaves_the_old_file_and_nothing_else(tmp_path: Path, mon
     assert [file.name for file in tmp_path.iterdir()] == ["report.html"]
 
 
+def test_links_in_a_circle_and_long_names_are_told_or_taken(tmp_path: Path) -> None:
+    loop = tmp_path / "loop"
+    loop.symlink_to(loop)
+    with pytest.raises(OutputNotWritable, match="cannot write"):
+        replace_atomically(loop, "new")
+    long = tmp_path / ("x" * 250)
+    replace_atomically(long, "M\udcfcller")
+    assert long.read_text(encoding="utf-8") == "M?ller"
+
+
 def test_links_are_followed_permissions_stay_and_devices_are_written_to(tmp_path: Path) -> None:
     target, link = tmp_path / "target.html", tmp_path / "link.html"
     target.write_text("old", encoding="utf-8")

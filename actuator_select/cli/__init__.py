@@ -11,7 +11,7 @@ import signal
 import sys
 import threading
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from types import FrameType
 
 import click
@@ -147,8 +147,9 @@ def _interrupts() -> Iterator[list[int]]:
         seen.append(number)
         signal.default_int_handler(number, frame)
 
-    if threading.current_thread() is not threading.main_thread():
-        yield seen  # only the main thread may handle signals
+    in_main_thread = threading.current_thread() is threading.main_thread()
+    if not in_main_thread or signal.getsignal(signal.SIGINT) is not signal.default_int_handler:
+        yield seen  # signals are somebody else's, or ignored as in a shell's background jobs
         return
     before = signal.signal(signal.SIGINT, note)
     try:
@@ -164,8 +165,12 @@ def _say_interrupted() -> int:
 
 def _output_failed(error: OSError) -> int:
     """End after the result could not be printed; nothing may be left for the interpreter to flush at its exit."""
-    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    with suppress(io.UnsupportedOperation, ValueError):
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     if isinstance(error, BrokenPipeError):  # the reader (head, less) has what it wanted
         return EXIT_DONE
-    click.echo(f"Error: cannot write the result: {error.strerror or error}; make room, or write elsewhere", err=True)
+    with suppress(OSError):
+        click.echo(
+            f"Error: cannot write the result: {error.strerror or error}; make room, or write elsewhere", err=True
+        )
     return EXIT_BAD_INPUT

@@ -1,5 +1,6 @@
 """``actuator-select rank``."""
 
+import shlex
 from typing import TYPE_CHECKING
 
 import click
@@ -60,11 +61,12 @@ def command(
         _emit_csv(selection, only_meeting=only_meeting)
     else:
         print_ranking(selection, only_meeting=only_meeting)
-        console.say(f"Next: actuator-select report {study}{' with the same --set' if overrides else ''}")
+        console.say(f"Next: {_report_command(study)}")
 
 
 def print_ranking(selection: "Selection", *, only_meeting: bool) -> None:
     """Print what the percentage is of, the table, and the warnings."""
+    from actuator_select.selection.wording import actuators as count_actuators
     from actuator_select.selection.wording import check_cell, heading, missing_notes, share
 
     for line in heading(selection):
@@ -92,11 +94,9 @@ def print_ranking(selection: "Selection", *, only_meeting: bool) -> None:
         click.echo(
             "Each check: positions that this limit alone allows, worst demand / limit over the whole motion set."
         )
-    meeting = sum(actuator.verdict.value == "meets" for actuator in selection.ranked)
-    click.echo(
-        f"{meeting} of {len(selection.ranked)} actuators {'meets' if meeting == 1 else 'meet'} the requirement of "
-        f"{selection.required_percent:g} %."
-    )
+    meeting, ranked = len(selection.shown(only_meeting=True)), count_actuators(len(selection.ranked))
+    verb = "meets" if meeting == 1 else "meet"
+    click.echo(f"{meeting} of {ranked} {verb} the requirement of {selection.required_percent:g} %.")
     for warning in selection.warnings:
         console.warn(warning.text)
 
@@ -120,3 +120,13 @@ def _emit_csv(selection: "Selection", *, only_meeting: bool) -> None:
             row += [verdict.state.value, verdict.poses, verdict.worst_utilisation]
         rows.append(row)
     console.emit_csv(header, rows)
+
+
+def _report_command(study: str) -> str:
+    """The report of this very ranking: the options as they were typed, but for those that `report` does not have."""
+    typed = list(click.get_current_context().find_root().obj)
+    words = [word for word in typed if word not in ("rank", study, "--only-meeting")]
+    if "--format" in words:
+        at = words.index("--format")
+        del words[at : at + 2]
+    return shlex.join(["actuator-select", "report", study, *words])

@@ -132,6 +132,8 @@ def print_simulation(run: "Simulation") -> None:
         click.echo(f"  {check.value} not evaluated: {missing_words(missing)} unknown")
     if run.pushing:
         console.warn(pushing_words(run))
+    for warning in run.glossed_over:
+        console.warn(warning)
 
 
 def _cell(value: float) -> str:

@@ -62,14 +62,14 @@ def drive_cloud(demand: Demand, actuator: ActuatorSet, points: int, positions: I
     choices = max(1, len(demand.motion.velocities)) if demand.motion.kind is MotionKind.SAMPLED else 2 * SPEEDS
     orientations = len(demand.orientations)
     covered = (np.asarray(positions, dtype=np.int64)[:, None] * orientations + np.arange(orientations)).ravel()
-    every = np.array(
-        list(product(covered, range(cables), range(choices), range(len(corners)))), dtype=np.int64
-    ).reshape(-1, 4)
+    shape = (len(covered), cables, choices, len(corners))
+    total = int(np.prod(shape))
+    flat = np.arange(total) if total <= MOST_COVERED else generator.choice(total, size=MOST_COVERED, replace=False)
+    every = np.column_stack(np.unravel_index(flat, shape)) if total else np.empty((0, 4), dtype=np.int64)
+    every[:, 0] = covered[every[:, 0]]
     drawn = np.column_stack(
         [generator.integers(count, size=points) for count in (poses, cables, choices, len(corners))]
     )
-    if len(every) > MOST_COVERED:
-        every = every[generator.choice(len(every), size=MOST_COVERED, replace=False)]
     pose, cable, choice, corner = np.vstack([every, drawn]).T
     share = np.concatenate([np.linspace(-1.0, 1.0, SPEEDS)[every[:, 2] % SPEEDS], generator.uniform(-1.0, 1.0, points)])
     speed, centripetal = _motions(demand, pose, cable, choice, share)

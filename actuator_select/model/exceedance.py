@@ -11,6 +11,7 @@ from actuator_select.model.trajectory import DriveHistory, DrivenMove, shaft_lim
 ZOOMS = 3  # rounds of looking closer at every local maximum
 ZOOM = 16  # times closer in each
 NEAR = 0.95  # of a limit or of a curve's largest; lower maxima between dense instants decide nothing
+FLAT = 1e-9  # of a curve's largest; smaller differences are rounding
 TIME_TOLERANCE = 1e-9  # s, of a crossing
 
 
@@ -79,7 +80,9 @@ def _local_maxima(history: DriveHistory, limits: dict[Check, float]) -> IntArray
     for check in Check:
         values = np.abs(history.of(check))
         edge = np.ones((1, values.shape[1]), dtype=np.bool_)
-        above_before = np.vstack([edge, (values[1:] > values[:-1]) | ~same])
+        # A rise within rounding is none: a cable along the move has flat histories, all of whose points would count.
+        flat = FLAT * values.max(axis=0)
+        above_before = np.vstack([edge, (values[1:] > values[:-1] + flat) | ~same])
         no_less_than_after = np.vstack([(values[:-1] >= values[1:]) | ~same, edge])
         decides = (values >= NEAR * limits[check]) | (values >= NEAR * values.max(axis=0))
         found |= (above_before & no_less_than_after & decides).any(axis=1)

@@ -7,6 +7,8 @@ import numpy as np
 from actuator_select.model.arrays import FloatArray
 from actuator_select.model.robot import CableRobot
 
+LEAST_CABLE_LENGTH = 1e-9  # m; a shorter cable has no direction that rounding leaves
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CableGeometry:
@@ -105,3 +107,28 @@ def cable_geometry(robot: CableRobot, positions: FloatArray, orientations: Float
     moments = np.cross(arms, directions)
     structure_matrix = np.concatenate([directions, moments], axis=-1).swapaxes(-1, -2)
     return CableGeometry(lengths=lengths, directions=directions, structure_matrix=structure_matrix)
+
+
+def least_cable_lengths(robot: CableRobot, start: FloatArray, stop: FloatArray, orientation: FloatArray) -> FloatArray:
+    """Shortest length of every cable over a straight line at constant orientation, (m,). [m].
+
+    Parameters
+    ----------
+    robot : CableRobot
+        With m cables.
+    start, stop : (3,) array
+        Ends of the line, apart from each other. [m]
+    orientation : (3,) array
+        Angles ψ, θ, φ. [rad]
+
+    Returns
+    -------
+    (m,) array
+        In closed form, not only at sampled points.
+    """
+    arms = robot.platform_anchors @ rotation_matrix(orientation).T
+    ends = robot.frame_anchors - arms  # where the platform's origin would be with a cable of no length
+    line = stop - start
+    along = np.clip((ends - start) @ line / (line @ line), 0.0, 1.0)
+    least: FloatArray = np.linalg.norm(ends - start - along[:, None] * line, axis=1)
+    return least

@@ -102,9 +102,27 @@ def unbalanced(
     centre, half = (acceleration_lower + acceleration_upper) / 2.0, (acceleration_upper - acceleration_lower) / 2.0
     middle = tensions.residual_static + tensions.residual_per_acceleration @ centre
     largest = np.abs(middle) + np.abs(tensions.residual_per_acceleration) @ half
-    reach = np.abs(wrench.static) + np.abs(wrench.per_acceleration) @ np.maximum(
-        np.abs(acceleration_lower), np.abs(acceleration_upper)
-    )
-    tolerance = BALANCE_TOLERANCE * np.linalg.norm(reach)
-    exceeds: BoolArray = np.any(largest > tolerance, axis=-1)
+    return exceeds_balance(largest, wrench, np.maximum(np.abs(acceleration_lower), np.abs(acceleration_upper)))
+
+
+def exceeds_balance(residual: FloatArray, wrench: RequiredWrench, acceleration: FloatArray) -> BoolArray:
+    """Tell where a residual is more than rounding.
+
+    Parameters
+    ----------
+    residual : (..., 6) array
+        Required wrench less the wrench of the tensions. [N, N m]
+    wrench : RequiredWrench
+        What is required.
+    acceleration : (..., 3) array
+        Its magnitudes, axis by axis. [m/s²]
+
+    Returns
+    -------
+    (...) array of bool
+        True where a component exceeds `BALANCE_TOLERANCE` of the required wrench.
+    """
+    reach = np.abs(wrench.static) + acceleration @ np.abs(wrench.per_acceleration).T
+    tolerance = BALANCE_TOLERANCE * np.linalg.norm(reach, axis=-1, keepdims=True)
+    exceeds: BoolArray = np.any(np.abs(residual) > tolerance, axis=-1)
     return exceeds

@@ -11,12 +11,12 @@ from actuator_select.model.actuation import (
     cable_speed_limit,
     shaft_characteristics,
 )
-from actuator_select.model.arrays import FloatArray, IntArray
+from actuator_select.model.arrays import BoolArray, FloatArray, IntArray
 from actuator_select.model.components import ActuatorSet
 from actuator_select.model.dynamics import RequiredWrench
-from actuator_select.model.kinematics import cable_geometry, rotation_matrix
+from actuator_select.model.kinematics import cable_geometry
 from actuator_select.model.robot import CableRobot
-from actuator_select.model.tension import pseudo_inverse_tensions
+from actuator_select.model.tension import exceeds_balance, pseudo_inverse_tensions
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -139,6 +139,8 @@ class DriveHistory:
         Load torque on that shaft. [N m]
     voltage : (S, m) array
         At the motor's terminals. [V]
+    rank_deficient, unbalanced : (S,) array of bool
+        Where the structure matrix is short of rank, and where the tensions do not balance the required wrench.
     """
 
     times: FloatArray
@@ -148,6 +150,8 @@ class DriveHistory:
     acceleration: FloatArray
     torque: FloatArray
     voltage: FloatArray
+    rank_deficient: BoolArray
+    unbalanced: BoolArray
 
     def of(self, check: Check) -> FloatArray:
         """History of the quantity that `check` limits, (S, m)."""
@@ -192,7 +196,7 @@ class DrivenMove:
     wrench : RequiredWrench
         What the cables must supply together.
     move : LineMove
-        The motion; see `least_lengths` for moves that touch an anchor.
+        The motion, off the anchors: see `kinematics.least_cable_lengths`.
     actuator : ActuatorSet
         A single one.
     """
@@ -201,15 +205,6 @@ class DrivenMove:
     wrench: RequiredWrench
     move: LineMove
     actuator: ActuatorSet
-
-    def least_lengths(self) -> FloatArray:
-        """Shortest length of every cable over the move, (m,). [m]."""
-        arms = self.robot.platform_anchors @ rotation_matrix(self.move.orientation).T
-        ends = self.robot.frame_anchors - arms  # where the platform's origin would be with a cable of no length
-        line = self.move.stop - self.move.start
-        along = np.clip((ends - self.move.start) @ line / (line @ line), 0.0, 1.0)
-        least: FloatArray = np.linalg.norm(ends - self.move.start - along[:, None] * line, axis=1)
-        return least
 
     def history(self, times: FloatArray, phases: IntArray) -> DriveHistory:
         """Shaft speed, acceleration, torque and voltage of every actuator, from exact derivatives.
@@ -236,6 +231,8 @@ class DrivenMove:
         line = (move.stop - move.start) / move.profile.distance
         geometry = cable_geometry(self.robot, move.start + path[:, None] * line, move.orientation)
         tensions = pseudo_inverse_tensions(geometry.structure_matrix, self.wrench)
+        along_line = acceleration[:, None] * line
+        residual = tensions.residual_static + np.einsum("sij,sj->si", tensions.residual_per_acceleration, along_line)
         tension = tensions.static + tensions.per_acceleration @ line * acceleration[:, None]
         along = geometry.directions @ line  # cosine between cable and line
         cable_speed = along * speed[:, None]
@@ -252,6 +249,8 @@ class DrivenMove:
             speed=shaft_speed,
             acceleration=shaft_acceleration,
             torque=torque,
+            rank_deficient=tensions.rank < self.robot.degrees_of_freedom,
+            unbalanced=exceeds_balance(residual, self.wrench, np.abs(along_line)),
             voltage=shaft.inertia_gain * shaft_acceleration
             + shaft.damping_gain * shaft_speed
             + shaft.load_gain * torque,  # eq. 21

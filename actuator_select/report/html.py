@@ -123,8 +123,10 @@ def _images(dossier: Dossier) -> dict[str, Any]:
         "bars": _image(share_bars(dossier.selection, [detail.actuator for detail in dossier.details]), "svg"),
         "workspaces": _image(workspace_panels(study, panels), "png"),
         "variants": _image(workspace_panels(study, turned), "png") if turned else None,
-        "slices": [_image(slice_panels(study, detail), "svg") for detail in dossier.details[:PLANES] if detail.checks],
-        "planes": [_image(torque_speed_plane(detail), "svg") for detail in dossier.details[:PLANES]],
+        "slices": [
+            (detail, _image(slice_panels(study, detail), "svg")) for detail in dossier.details[:PLANES] if detail.checks
+        ],
+        "planes": [(detail, _image(torque_speed_plane(detail), "svg")) for detail in dossier.details[:PLANES]],
         "moves": [_image(simulation_figure(run), "svg") for _, run in dossier.moves],
         "leading": leading.actuator.name,
     }

@@ -39,6 +39,7 @@ STYLE: dict[Any, Any] = {
     "legend.frameon": False,
     "legend.fontsize": 8.0,
     "svg.fonttype": "none",  # text stays text: smaller, searchable, in a font that the reader has
+    "text.parse_math": False,  # a $ in a part's name is a $
     "svg.hashsalt": "actuator-select",
 }
 

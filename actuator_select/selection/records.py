@@ -103,6 +103,8 @@ def simulation_record(run: Simulation) -> dict[str, Any]:
         ],
         "not_evaluated": {check.value: list(missing) for check, missing in run.missing.items()},
         "negative_tension_cables": run.pushing,
+        "rank_deficient": bool(run.history.rank_deficient.any()),
+        "unbalanced_wrench": bool(run.history.unbalanced.any()),
     }
 
 

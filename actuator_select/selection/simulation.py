@@ -12,6 +12,7 @@ from actuator_select.model.actuation import Check
 from actuator_select.model.arrays import FloatArray
 from actuator_select.model.evaluation import missing_figures
 from actuator_select.model.exceedance import Exceedance, exceedances, peaks, with_peaks
+from actuator_select.model.kinematics import LEAST_CABLE_LENGTH, least_cable_lengths
 from actuator_select.model.trajectory import (
     DriveHistory,
     DrivenMove,
@@ -27,7 +28,6 @@ if TYPE_CHECKING:
     import pandas as pd
 
 INSTANTS_PER_PHASE = 401  # for curves
-LEAST_LENGTH = 1e-9  # m; a shorter cable has no direction that rounding leaves
 NEGATIVE_TENSION_TOLERANCE = 1e-9  # relative to the largest tension of the move
 
 UNITS = {Check.SPEED: "rad/s", Check.TORQUE: "N m", Check.ACCELERATION: "rad/s²", Check.VOLTAGE: "V"}
@@ -74,6 +74,17 @@ class Simulation:
         """Checks that could not be evaluated, with the figures that they lack."""
         lacking = {check: missing_figures(self.candidates.actuators, check)[0] for check in Check}
         return {check: figures for check, figures in lacking.items() if figures}
+
+    @property
+    def glossed_over(self) -> list[str]:
+        """What the tension model glosses over during the move, for people."""
+        shares = (
+            (self.history.rank_deficient, "the structure matrix is short of rank"),
+            (self.history.unbalanced, "the pseudo-inverse leaves part of the required wrench unbalanced"),
+        )
+        return [
+            f"during {'all' if where.all() else 'part'} of this move {what}." for where, what in shares if where.any()
+        ]
 
     @property
     def pushing(self) -> list[int]:
@@ -160,7 +171,7 @@ def simulate_candidate(
     """As `simulate`, for an actuator at hand; `place` names the line in messages."""
     move = _line_move(study, start, stop, orientation, place)
     driven = DrivenMove(robot=study.robot, wrench=study.wrench, move=move, actuator=candidate.actuators)
-    if driven.least_lengths().min() < LEAST_LENGTH:
+    if least_cable_lengths(study.robot, move.start, move.stop, move.orientation).min() < LEAST_CABLE_LENGTH:
         problem = Problem(
             place=place,
             value="the line touches a frame anchor, where a cable has no direction",

@@ -1,6 +1,7 @@
 """Results in words, the same on the command line and in reports."""
 
 from collections.abc import Sequence
+from math import isinf
 
 from actuator_select.model.exceedance import Exceedance
 from actuator_select.model.motion import MotionKind
@@ -47,8 +48,19 @@ def check_cell(verdict: CheckVerdict, total: int) -> str:
         return "not applicable"
     if verdict.poses is None or verdict.worst_utilisation is None:
         return "not evaluated"
-    worst = verdict.worst_utilisation
-    return f"{verdict.poses}/{total}  ×{worst:.3f}" if worst < LARGE else f"{verdict.poses}/{total}  ×{worst:.3g}"
+    return f"{verdict.poses}/{total}  ×{utilisation_words(verdict.worst_utilisation)}"
+
+
+def utilisation_words(utilisation: float) -> str:
+    """Demand over limit; undefined where a cable has no length."""
+    if isinf(utilisation):
+        return "undefined"
+    return f"{utilisation:.3f}" if utilisation < LARGE else f"{utilisation:.3g}"
+
+
+def actuators(count: int) -> str:
+    """``5 actuators``."""
+    return f"{count} actuator{'' if count == 1 else 's'}"
 
 
 def missing_notes(actuators: Sequence[RankedActuator]) -> list[str]:

@@ -16,7 +16,7 @@ from actuator_select.errors import InvalidStudy, Problem, UnknownName, did_you_m
 from actuator_select.model.actuation import Check
 from actuator_select.model.arrays import FloatArray
 from actuator_select.model.dynamics import RequiredWrench, required_wrench
-from actuator_select.model.kinematics import position_grid
+from actuator_select.model.kinematics import LEAST_CABLE_LENGTH, least_cable_lengths, position_grid
 from actuator_select.model.motion import MotionSet, independent_motion, sampled_motion
 from actuator_select.model.robot import CableRobot, cpr8, cpr8_region
 from actuator_select.model.tension import TensionModel
@@ -183,7 +183,25 @@ def parse_study(text: str, *, place: str, overrides: Mapping[str, object] | None
         text = _overridden(text, overrides, place)
     content = _parsed(text, place).unwrap()
     study = _build(content, text, f"study {place!r}")
+    _refuse_moves_through_anchors(study, place)
     return replace(study, variants=tuple(_variants(study, content, place)))
+
+
+def _refuse_moves_through_anchors(study: Study, place: str) -> None:
+    problems = [
+        Problem(
+            place=f"move[{index}]",
+            value="the line touches a frame anchor, where a cable has no direction",
+            expected="a line that keeps off the anchors [m]",
+        )
+        for index, move in enumerate(study.table.move)
+        if least_cable_lengths(
+            study.robot, np.array(move.from_m), np.array(move.to_m), np.array(move.orientation_rad)
+        ).min()
+        < LEAST_CABLE_LENGTH
+    ]
+    if problems:
+        raise InvalidStudy(f"study {place!r} does not hold", problems)
 
 
 def _variants(study: Study, content: dict[str, object], place: str) -> Iterator[Variant]:
@@ -198,7 +216,10 @@ def _variants(study: Study, content: dict[str, object], place: str) -> Iterator[
                 )
                 raise InvalidStudy(f"{where} does not hold", [problem])
         changed = deepcopy({key: value for key, value in content.items() if key != "variant"})
-        apply_overrides(changed, one.set)
+        try:
+            apply_overrides(changed, one.set)
+        except InvalidStudy as error:
+            raise InvalidStudy(f"{where} does not hold", error.problems) from error
         yield Variant(title=one.title, keys=tuple(one.set), study=_build(changed, study.text, where))
 
 

@@ -7,8 +7,8 @@ from actuator_select.model.actuation import Check
 from actuator_select.model.components import ActuatorSet
 from actuator_select.model.dynamics import required_wrench
 from actuator_select.model.exceedance import exceedances, peaks, with_peaks
-from actuator_select.model.kinematics import cable_geometry
-from actuator_select.model.robot import cpr8
+from actuator_select.model.kinematics import cable_geometry, least_cable_lengths
+from actuator_select.model.robot import CableRobot, cpr8
 from actuator_select.model.trajectory import (
     DriveHistory,
     DrivenMove,
@@ -189,4 +189,22 @@ def test_the_least_length_of_a_cable_over_a_move_is_that_of_the_nearest_instant(
     way = np.linspace(0.0, 1.0, 20001)[:, None]
     positions = dense.move.start + way * (dense.move.stop - dense.move.start)
     lengths = cable_geometry(ROBOT, positions, dense.move.orientation).lengths
-    assert dense.least_lengths() == pytest.approx(lengths.min(axis=0), abs=1e-7)
+    least = least_cable_lengths(ROBOT, dense.move.start, dense.move.stop, dense.move.orientation)
+    assert least == pytest.approx(lengths.min(axis=0), abs=1e-7)
+
+
+def test_flat_histories_do_not_count_as_thousands_of_maxima() -> None:
+    # Eight vertical cables and a vertical move: every speed and tension is flat but for rounding.
+    anchors = np.array([[x, y, 0.0] for x in (0.0, 2.0) for y in (0.0, 0.1, 1.5, 1.6)])
+    robot = CableRobot(frame_anchors=anchors + np.array([1.0, 0.0, 3.0]), platform_anchors=anchors)
+    start, stop = np.array([1.0, 0.0, 2.3]), np.array([1.0, 0.0, 0.4])
+    move = LineMove(
+        start=start,
+        stop=stop,
+        orientation=np.zeros(3),
+        profile=trapezoidal_profile(1.9, 0.3, 1.0, 1.0),
+        centripetal=True,
+    )
+    hoist = DrivenMove(robot=robot, wrench=WRENCH, move=move, actuator=actuator())
+    coarse = hoist.history(*instants(move.profile, 401))
+    assert len(with_peaks(hoist, coarse).times) < 4 * len(coarse.times)

@@ -128,3 +128,12 @@ def test_the_finished_report_is_that_of_this_program_and_this_catalogue(catalogu
         assert text in finished
         assert text in page
     assert re.sub(r"(?s)<header>.*?</header>|<img[^>]*>", "", finished).count("<h2>") == page.count("<h2>")
+
+
+def test_dollar_signs_in_names_are_dollar_signs() -> None:
+    with open_catalogue(":memory:") as own:
+        row = own.part("filipovic-kevac-2018-1")[1]
+        same = {name: value for name, value in row.items() if "." not in name and name != "origin"}
+        own.add("actuators", same | {"id": "dollar", "name": "Drive $x_{$"})
+        page = render_report(rank(load_study("cpr8"), own, where="id = 'dollar'"), own, DETAILS)
+    assert "Drive $x_{$" in page
