@@ -66,8 +66,7 @@ def command(
 
 def print_ranking(selection: "Selection", *, only_meeting: bool) -> None:
     """Print what the percentage is of, the table, and the warnings."""
-    from actuator_select.selection.wording import actuators as count_actuators
-    from actuator_select.selection.wording import check_cell, heading, missing_notes, share
+    from actuator_select.selection.wording import actuator_count, check_cell, heading, missing_notes, share
 
     for line in heading(selection):
         click.echo(line)
@@ -94,7 +93,7 @@ def print_ranking(selection: "Selection", *, only_meeting: bool) -> None:
         click.echo(
             "Each check: positions that this limit alone allows, worst demand / limit over the whole motion set."
         )
-    meeting, ranked = len(selection.shown(only_meeting=True)), count_actuators(len(selection.ranked))
+    meeting, ranked = len(selection.shown(only_meeting=True)), actuator_count(len(selection.ranked))
     verb = "meets" if meeting == 1 else "meet"
     click.echo(f"{meeting} of {ranked} {verb} the requirement of {selection.required_percent:g} %.")
     for warning in selection.warnings:

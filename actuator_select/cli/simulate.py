@@ -1,5 +1,6 @@
 """``actuator-select simulate``."""
 
+from math import isnan
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -24,7 +25,7 @@ class Vector(click.ParamType[tuple[float, ...]]):
             numbers = tuple(float(part) for part in str(value).split(","))
         except ValueError:
             numbers = ()
-        if len(numbers) != 3:  # noqa: PLR2004
+        if len(numbers) != 3:  # noqa: PLR2004 - x, y, z
             self.fail(f"{value!r}, expected three numbers separated by commas, such as 0.153,0.153,-0.153", param, ctx)
         return numbers
 
@@ -138,4 +139,4 @@ def print_simulation(run: "Simulation") -> None:
 
 def _cell(value: float) -> str:
     """A number of a table; an unknown one is a dash."""
-    return "–" if value != value else f"{value:.5g}"  # noqa: PLR0124 - only NaN differs from itself
+    return "–" if isnan(value) else f"{value:.5g}"

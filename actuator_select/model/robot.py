@@ -27,7 +27,7 @@ class CableRobot:
             anchors = np.array(getattr(self, name), dtype=np.float64)
             anchors.flags.writeable = False
             object.__setattr__(self, name, anchors)
-        if self.frame_anchors.ndim != 2 or self.frame_anchors.shape[1] != 3 or not len(self.frame_anchors):  # noqa: PLR2004
+        if self.frame_anchors.ndim != 2 or self.frame_anchors.shape[1] != 3 or not len(self.frame_anchors):  # noqa: PLR2004 - x, y, z
             raise ValueError(f"{self.frame_anchors.shape=}, expected (cables, 3) with at least one cable")
         if self.platform_anchors.shape != self.frame_anchors.shape:
             raise ValueError(f"{self.platform_anchors.shape=} but {self.frame_anchors.shape=}")

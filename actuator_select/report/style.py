@@ -13,13 +13,12 @@ IMAGE_FORMATS = ("svg", "png", "pdf")
 RASTER_DPI = 130
 
 # Okabe & Ito, "Color universal design", 2008.
-BLUE, ORANGE, GREEN, RED, SKY, YELLOW, PURPLE, GREY = (
+BLUE, ORANGE, GREEN, RED, SKY, PURPLE, GREY = (
     "#0072B2",
     "#E69F00",
     "#009E73",
     "#D55E00",
     "#56B4E9",
-    "#F0E442",
     "#CC79A7",
     "#8A8A8A",
 )

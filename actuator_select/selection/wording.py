@@ -58,7 +58,7 @@ def utilisation_words(utilisation: float) -> str:
     return f"{utilisation:.3f}" if utilisation < LARGE else f"{utilisation:.3g}"
 
 
-def actuators(count: int) -> str:
+def actuator_count(count: int) -> str:
     """``5 actuators``."""
     return f"{count} actuator{'' if count == 1 else 's'}"
 
