@@ -1,0 +1,148 @@
+"""Minimax tension of every pose: rank first, then hyperplane shifting, compiled where that pays."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from math import comb
+
+import numpy as np
+
+from actuator_select.model.arrays import FloatArray, IntArray
+from actuator_select.model.hyperplanes import ColumnBounds, WrenchSets, minimax_by_numpy
+
+RANK_TOLERANCE = 1e-9  # relative to the largest singular value, moments divided by the characteristic length
+BALANCE_TOLERANCE = 1e-9  # of a wrench outside the range of the structure matrix, relative to the wrenches at hand
+KERNEL_PAYS_FROM = 200_000  # normals; below, NumPy is done before a compiler is loaded
+CELLS_AT_ONCE = 1 << 20  # (pose, column, row) cells in one chunk
+
+Minimax = Callable[[FloatArray, WrenchSets, IntArray, FloatArray, ColumnBounds], tuple[FloatArray, FloatArray]]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Holding:
+    """What holding the required wrenches takes at q poses, for G sets of wrenches each.
+
+    Attributes
+    ----------
+    minimax_tension : (q, G) array
+        t*, the least uniform upper bound of the cable tensions; infinite where the pose is infeasible. [N]
+    margin : (q, G) array
+        Least distance to a facet of the available wrenches, moments divided by the characteristic length; where the
+        rank is short, within the wrenches that can be exerted at all, or -infinite where others are required. [N]
+    rank : (q,) array
+        Of the columns.
+    """
+
+    minimax_tension: FloatArray
+    margin: FloatArray
+    rank: IntArray
+
+
+def hold_wrenches(
+    columns: FloatArray, wrenches: WrenchSets, which: IntArray, shift: FloatArray, bounds: ColumnBounds
+) -> Holding:
+    """Find the minimax tension and the margin at every pose.
+
+    Parameters
+    ----------
+    columns : (q, n, M) array
+        Structure matrix: a column per cable, and one per counterbalance whose tension is controlled. Moment rows are
+        to be divided by a length that makes them comparable with forces.
+    wrenches : WrenchSets
+        What is required, scaled alike.
+    which : (q,) array
+        Index of every pose's sets in `wrenches`.
+    shift : (q, n) array
+        Wrench that counterbalances of constant tension supply.
+    bounds : ColumnBounds
+        Of the M tensions.
+
+    Returns
+    -------
+    Holding
+        Exact for every rank; a wrench that is not in the range of the columns cannot be held by any tension.
+    """
+    poses, rows, count = columns.shape
+    sets = wrenches.centre.shape[1]
+    holding = Holding(
+        minimax_tension=np.full((poses, sets), np.inf),
+        margin=np.full((poses, sets), -np.inf),
+        rank=np.zeros(poses, dtype=np.int64),
+    )
+    work = poses * comb(count, min(rows, count) - 1 if count else 0)
+    minimax = _minimax(work)
+    step = max(1, CELLS_AT_ONCE // max(1, rows * count))
+    for start in range(0, poses, step):
+        _hold_chunk(columns, wrenches, which, shift, bounds, minimax, holding, slice(start, start + step))
+    return holding
+
+
+def _hold_chunk(  # noqa: PLR0913, PLR0917 - one step of `hold_wrenches`
+    columns: FloatArray,
+    wrenches: WrenchSets,
+    which: IntArray,
+    shift: FloatArray,
+    bounds: ColumnBounds,
+    minimax: Minimax,
+    holding: Holding,
+    chunk: slice,
+) -> None:
+    some, index, supplied = columns[chunk], which[chunk], shift[chunk]
+    rank, left = structure_rank(some)
+    holding.rank[chunk] = rank
+    rows = some.shape[1]
+    for value in np.unique(rank):
+        at = np.flatnonzero(rank == value)
+        place = at + chunk.start
+        if value == rows:
+            least, margin = minimax(some[at], wrenches, index[at], supplied[at], bounds)
+        else:
+            least, margin = _hold_short(some[at], wrenches, index[at], supplied[at], bounds, left[at], int(value), minimax)
+        holding.minimax_tension[place], holding.margin[place] = least, margin
+
+
+def structure_rank(columns: FloatArray) -> tuple[IntArray, FloatArray]:
+    """Rank of (q, n, M) structure matrices, (q,), and their left singular vectors, (q, n, n), largest first."""
+    left, sigma, _ = np.linalg.svd(columns, full_matrices=True)
+    rank = (sigma > RANK_TOLERANCE * sigma[:, :1]).sum(axis=-1, dtype=np.int64)
+    rank[sigma[:, 0] == 0.0] = 0
+    return rank, left
+
+
+def _hold_short(  # noqa: PLR0913, PLR0917
+    columns: FloatArray,
+    wrenches: WrenchSets,
+    which: IntArray,
+    shift: FloatArray,
+    bounds: ColumnBounds,
+    left: FloatArray,
+    rank: int,
+    minimax: Minimax,
+) -> tuple[FloatArray, FloatArray]:
+    """As `hold_wrenches` where the rank is short: within the range, if all that is required lies in it."""
+    own, beyond = left[:, :, :rank], left[:, :, rank:]
+    size = wrenches.magnitude(which) + np.linalg.norm(shift, axis=1)[:, None]
+    outside = wrenches.projected(beyond, which)
+    centre = outside.centre - np.einsum("qn,qnr->qr", shift, beyond)[:, None]
+    unheld = np.linalg.norm(centre, axis=-1) + np.linalg.norm(outside.segments, axis=-1).sum(axis=-1)
+    unheld += np.linalg.norm(outside.balls, axis=(-2, -1)).sum(axis=-1)
+    balanced = unheld <= BALANCE_TOLERANCE * size
+    if rank == 0:
+        least = np.full(balanced.shape, float(np.max(bounds.lower[bounds.shared], initial=0.0)))
+        margin = np.zeros(balanced.shape)
+    else:
+        inside = wrenches.projected(own, which)
+        columns_inside = np.einsum("qnm,qnr->qrm", columns, own)
+        shift_inside = np.einsum("qn,qnr->qr", shift, own)
+        least, margin = minimax(columns_inside, inside, np.arange(len(which)), shift_inside, bounds)
+    return np.where(balanced, least, np.inf), np.where(balanced, margin, -np.inf)
+
+
+def _minimax(normals: int) -> Minimax:
+    """Choose the compiled kernel where it pays and exists."""
+    if normals < KERNEL_PAYS_FROM:
+        return minimax_by_numpy
+    try:
+        from actuator_select.model.hyperplane_kernel import minimax
+    except (ImportError, RuntimeError):  # not installed, or no folder to keep its code in
+        return minimax_by_numpy
+    return minimax
