@@ -73,6 +73,11 @@ def torque_ratio(actuators: ActuatorSet) -> FloatArray:
     return actuators.ratio * actuators.efficiency
 
 
+def shaft_inertia(actuators: ActuatorSet) -> FloatArray:
+    """J_r, the rotor's inertia at the shaft behind the gearbox as eq. 22 has it, the efficiency included, (C,). [kg m²]"""
+    return actuators.rotor_inertia * actuators.ratio * torque_ratio(actuators)
+
+
 def shaft_characteristics(actuators: ActuatorSet) -> ShaftCharacteristics:
     """Coefficients of eq. 21.
 
@@ -90,7 +95,7 @@ def shaft_characteristics(actuators: ActuatorSet) -> ShaftCharacteristics:
     speed_times_torque = actuators.ratio * torque_gain
     back_emf = actuators.back_emf_constant * actuators.ratio  # C_E
     torque_constant = actuators.torque_constant * torque_gain  # C_M
-    inertia = actuators.rotor_inertia * speed_times_torque  # J_r
+    inertia = shaft_inertia(actuators)
     load_gain = actuators.resistance / torque_constant  # S, eq. 22
     return ShaftCharacteristics(
         inertia_gain=inertia * load_gain,  # G, eq. 22
@@ -122,7 +127,9 @@ def cable_acceleration_limit(actuators: ActuatorSet) -> FloatArray:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class VoltageLine:
-    """Eq. 34 at the drum: force + reflected_mass · s + damping · v must stay within ±force_limit.
+    """A limit that falls with cable speed and acceleration: force + reflected_mass · s + damping · v within ±force_limit.
+
+    Eq. 34 put at the drum, or without damping the sum of eqs. 32 and 33.
 
     Attributes
     ----------
@@ -131,7 +138,7 @@ class VoltageLine:
     damping : (C,) array
         L/(S R_w²). [N s/m]
     force_limit : (C,) array
-        U/(S R_w), the cable force that the full voltage holds at standstill. [N]
+        U/(S R_w), the cable force that the full voltage holds at standstill; or M_mot N_M/R_w. [N]
     """
 
     reflected_mass: FloatArray
@@ -167,6 +174,24 @@ def voltage_line(actuators: ActuatorSet) -> VoltageLine:
         damping=shaft.damping_gain / (shaft.load_gain * radius**2),
         force_limit=actuators.voltage / (shaft.load_gain * radius),
     )
+
+
+def torque_line(actuators: ActuatorSet) -> VoltageLine:
+    """Torque for the load and for the rotor's acceleration together, put at the drum: force + reflected_mass · s.
+
+    Parameters
+    ----------
+    actuators : ActuatorSet
+        C actuators.
+
+    Returns
+    -------
+    VoltageLine
+        Without damping; its force limit is that of eq. 32, its reflected mass that of eq. 33. NaN where unknown.
+    """
+    mass = shaft_inertia(actuators) / actuators.drum_radius**2
+    limit = cable_force_limit(actuators)
+    return VoltageLine(reflected_mass=mass, damping=np.where(np.isnan(mass + limit), np.nan, 0.0), force_limit=limit)
 
 
 def utilisation(demand: FloatArray, limit: FloatArray) -> FloatArray:

@@ -4,7 +4,7 @@ The limits are those of eqs. 30, 32, 33 and 34 in Filipović & Kevac 2018, doi:1
 (`actuation`), each at its worst case over the motion set.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,9 +13,11 @@ from actuator_select.model.actuation import (
     FIGURES_NEEDED,
     ROUNDING,
     Check,
+    VoltageLine,
     cable_acceleration_limit,
     cable_force_limit,
     cable_speed_limit,
+    torque_line,
     utilisation,
     voltage_line,
 )
@@ -63,7 +65,9 @@ class Evaluation:
     checks : mapping of Check to CheckCount
         The checks that were asked for.
     positions : (C,) array
-        Positions at which every evaluated check holds at every orientation.
+        Positions at which every evaluated check holds in every case. Under a model with bounded tensions this is the
+        safe rule: one constant limit for all cables, the least that speed and acceleration leave, so that
+        the true count is no smaller.
     """
 
     demand: Demand
@@ -99,32 +103,31 @@ def evaluate_actuators(
     Evaluation
         Counts over positions; memory does not grow with C times P.
     """
-    scalar = [_scalar_check(demand, actuators, check) for check in checks if check is not Check.VOLTAGE]
+    lines = {check: line(actuators) for check, line in coupled_limits(demand).items() if check in checks}
+    scalar = [_scalar_check(demand, actuators, check) for check in checks if check not in lines]
     counts = {one.check: one.count() for one in scalar}
-    voltage = (
-        VoltageCounter(voltage_demand(demand), voltage_line(actuators), ROUNDING) if Check.VOLTAGE in checks else None
-    )
-    positions = len(demand.positions)
-    order = np.arange(positions) if voltage is None else voltage.order
+    rows = voltage_demand(demand) if lines else None
+    counters = {check: VoltageCounter(rows, line, ROUNDING) for check, line in lines.items() if rows is not None}
+    positions, attainable = len(demand.positions), demand.attainable_positions
+    order = next((counter.order for counter in counters.values()), np.arange(positions))
     joint = np.zeros(len(actuators), dtype=np.int64)
     step = max(1, CELLS_AT_ONCE // max(1, len(actuators)))
     for start in range(0, positions, step):
         chunk = order[start : start + step]
-        passes = np.ones((len(actuators), len(chunk)), dtype=np.bool_)
+        passes = np.broadcast_to(attainable[chunk], (len(actuators), len(chunk))).copy()
         for one in scalar:
             passes &= one.passes(chunk)
+        for counter in counters.values():
+            counter.add(chunk, passes)
         joint += passes.sum(axis=1)
-        if voltage is not None:
-            voltage.add(chunk, passes)
         if progress is not None:
             progress(start + len(chunk), positions)
-    if voltage is not None:
-        joint = np.where(voltage.evaluated, voltage.joint, joint)
-        counts[Check.VOLTAGE] = CheckCount(
-            evaluated=voltage.evaluated,
-            positions=voltage.alone,
-            worst_utilisation=voltage.worst_utilisation,
-            worst_position=voltage.worst_position,
+    for check, counter in counters.items():
+        counts[check] = CheckCount(
+            evaluated=counter.evaluated,
+            positions=counter.alone,
+            worst_utilisation=counter.worst_utilisation,
+            worst_position=counter.worst_position,
         )
     return Evaluation(
         demand=demand, actuators=actuators, checks={check: counts[check] for check in checks}, positions=joint
@@ -149,13 +152,25 @@ def position_utilisation(demand: Demand, actuators: ActuatorSet, checks: Sequenc
         Greatest utilisation over cables and orientations; NaN where a figure is unknown.
     """
     result: dict[Check, FloatArray] = {}
+    lines = coupled_limits(demand)
     for check in checks:
-        if check is Check.VOLTAGE:
-            result[check] = voltage_demand(demand).utilisation(voltage_line(actuators))
+        if check in lines:
+            result[check] = voltage_demand(demand).utilisation(lines[check](actuators))
         else:
             scalar = _scalar_check(demand, actuators, check)
             result[check] = utilisation(scalar.demand, scalar.limit[:, None])
     return result
+
+
+def coupled_limits(demand: Demand) -> dict[Check, Callable[[ActuatorSet], VoltageLine]]:
+    """Checks whose limit falls with cable speed and acceleration, with what makes them a line at the drum.
+
+    Under the pseudo-inverse eqs. 32 and 33 are tested apart, as published. Under a model with bounded tensions the
+    acceleration check is of their sum: the torque for the load and for the rotor together.
+    """
+    if demand.tensions is not None:
+        return {Check.VOLTAGE: voltage_line}
+    return {Check.ACCELERATION: torque_line, Check.VOLTAGE: voltage_line}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

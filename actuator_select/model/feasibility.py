@@ -6,7 +6,7 @@ from math import comb
 
 import numpy as np
 
-from actuator_select.model.arrays import FloatArray, IntArray
+from actuator_select.model.arrays import BoolArray, FloatArray, IntArray
 from actuator_select.model.hyperplanes import ColumnBounds, WrenchSets, minimax_by_numpy
 
 RANK_TOLERANCE = 1e-9  # relative to the largest singular value, moments divided by the characteristic length
@@ -14,6 +14,7 @@ BALANCE_TOLERANCE = 1e-9  # of a wrench outside the range of the structure matri
 KERNEL_PAYS_FROM = 200_000  # normals; below, NumPy is done before a compiler is loaded
 CELLS_AT_ONCE = 1 << 20  # (pose, column, row) cells in one chunk
 
+RankTest = Callable[[FloatArray], BoolArray]
 Minimax = Callable[[FloatArray, WrenchSets, IntArray, FloatArray, ColumnBounds], tuple[FloatArray, FloatArray]]
 
 
@@ -69,10 +70,10 @@ def hold_wrenches(
         rank=np.zeros(poses, dtype=np.int64),
     )
     work = poses * comb(count, min(rows, count) - 1 if count else 0)
-    minimax = _minimax(work)
+    minimax, surely_of_full_rank = _tools(work)
     step = max(1, CELLS_AT_ONCE // max(1, rows * count))
     for start in range(0, poses, step):
-        _hold_chunk(columns, wrenches, which, shift, bounds, minimax, holding, slice(start, start + step))
+        _hold_chunk(columns, wrenches, which, shift, bounds, minimax, surely_of_full_rank, holding, slice(start, start + step))
     return holding
 
 
@@ -83,21 +84,29 @@ def _hold_chunk(  # noqa: PLR0913, PLR0917 - one step of `hold_wrenches`
     shift: FloatArray,
     bounds: ColumnBounds,
     minimax: Minimax,
+    surely_of_full_rank: RankTest | None,
     holding: Holding,
     chunk: slice,
 ) -> None:
     some, index, supplied = columns[chunk], which[chunk], shift[chunk]
-    rank, left = structure_rank(some)
-    holding.rank[chunk] = rank
     rows = some.shape[1]
-    for value in np.unique(rank):
+    rank = np.full(len(some), rows, dtype=np.int64)
+    doubtful = np.flatnonzero(~surely_of_full_rank(some)) if surely_of_full_rank is not None else np.arange(len(some))
+    rank[doubtful], left = structure_rank(some[doubtful])
+    holding.rank[chunk] = rank
+    full = np.flatnonzero(rank == rows)
+    if len(full):
+        place = full + chunk.start
+        holding.minimax_tension[place], holding.margin[place] = minimax(
+            some[full], wrenches, index[full], supplied[full], bounds
+        )
+    for value in np.unique(rank[rank < rows]):
         at = np.flatnonzero(rank == value)
+        bases = left[np.searchsorted(doubtful, at)]
         place = at + chunk.start
-        if value == rows:
-            least, margin = minimax(some[at], wrenches, index[at], supplied[at], bounds)
-        else:
-            least, margin = _hold_short(some[at], wrenches, index[at], supplied[at], bounds, left[at], int(value), minimax)
-        holding.minimax_tension[place], holding.margin[place] = least, margin
+        holding.minimax_tension[place], holding.margin[place] = _hold_short(
+            some[at], wrenches, index[at], supplied[at], bounds, bases, int(value), minimax
+        )
 
 
 def structure_rank(columns: FloatArray) -> tuple[IntArray, FloatArray]:
@@ -137,12 +146,12 @@ def _hold_short(  # noqa: PLR0913, PLR0917
     return np.where(balanced, least, np.inf), np.where(balanced, margin, -np.inf)
 
 
-def _minimax(normals: int) -> Minimax:
-    """Choose the compiled kernel where it pays and exists."""
+def _tools(normals: int) -> tuple[Minimax, RankTest | None]:
+    """Choose the compiled kernel, with its quick test of the rank, where it pays and exists."""
     if normals < KERNEL_PAYS_FROM:
-        return minimax_by_numpy
+        return minimax_by_numpy, None
     try:
-        from actuator_select.model.hyperplane_kernel import minimax
+        from actuator_select.model.hyperplane_kernel import minimax, surely_of_full_rank
     except (ImportError, RuntimeError):  # not installed, or no folder to keep its code in
-        return minimax_by_numpy
-    return minimax
+        return minimax_by_numpy, None
+    return minimax, surely_of_full_rank

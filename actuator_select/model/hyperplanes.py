@@ -18,7 +18,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from actuator_select.model.arrays import FloatArray, IntArray
+from actuator_select.model.arrays import BoolArray, FloatArray, IntArray
 
 COLUMN_TOLERANCE = 1e-11  # of n · column, relative to the column's norm; what is smaller lies in the hyperplane
 WRENCH_TOLERANCE = 1e-10  # relative to the wrenches at hand; a smaller excess is rounding
@@ -39,7 +39,7 @@ class ColumnBounds:
 
     lower: FloatArray
     upper: FloatArray
-    shared: np.ndarray
+    shared: BoolArray
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -62,7 +62,7 @@ class WrenchSets:
 
     def reach(self, normals: FloatArray, which: IntArray) -> FloatArray:
         """How far the sets extend from their centres in the directions `normals`, (q, n); (q, G)."""
-        reach = np.abs(np.einsum("qgsn,qn->qgs", self.segments[which], normals)).sum(axis=-1)
+        reach: FloatArray = np.abs(np.einsum("qgsn,qn->qgs", self.segments[which], normals)).sum(axis=-1)
         reach += np.linalg.norm(np.einsum("qgbnk,qn->qgbk", self.balls[which], normals), axis=-1).sum(axis=-1)
         return reach
 
@@ -120,7 +120,8 @@ def _without(basis: FloatArray, vector: FloatArray) -> FloatArray:
     square = np.einsum("qd,qd->q", mirror, mirror)
     scale = np.divide(2.0, square, out=np.zeros_like(square), where=square > 0.0)
     row = np.einsum("qd,qdr->qr", mirror, basis)
-    return basis[:, 1:] - (scale[:, None] * mirror[:, 1:])[..., None] * row[:, None]
+    rest: FloatArray = basis[:, 1:] - (scale[:, None] * mirror[:, 1:])[..., None] * row[:, None]
+    return rest
 
 
 def in_hyperplane(components: FloatArray, columns: FloatArray) -> FloatArray:

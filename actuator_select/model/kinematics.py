@@ -20,12 +20,15 @@ class CableGeometry:
         Straight cable length. [m]
     directions : (Q, m, 3) array
         Unit vector from the platform to the frame, world frame. [-]
+    arms : (Q, m, 3) array
+        From the platform's origin to the platform anchors, R b, world frame. [m]
     structure_matrix : (Q, 6, m) array
         Wrench on the platform per unit of tension: force, then moment about the platform's origin. [-, m]
     """
 
     lengths: FloatArray
     directions: FloatArray
+    arms: FloatArray
     structure_matrix: FloatArray
 
 
@@ -99,14 +102,21 @@ def cable_geometry(robot: CableRobot, positions: FloatArray, orientations: Float
     ----------
     Eqs. 1-17 and 19 in Filipović & Kevac 2018, doi:10.22190/FUACR1802071F.
     """
-    arms = np.einsum("...ij,mj->...mi", rotation_matrix(orientations), robot.platform_anchors)  # R b_i
-    arms = np.broadcast_to(arms, (len(positions), robot.cables, 3))
-    cables = robot.frame_anchors - positions[:, None, :] - arms
+    return segment_geometry(robot.frame_anchors, robot.platform_anchors, positions, orientations)
+
+
+def segment_geometry(
+    frame_anchors: FloatArray, platform_anchors: FloatArray, positions: FloatArray, orientations: FloatArray
+) -> CableGeometry:
+    """As `cable_geometry`, of any straight segments between frame and platform, such as a counterbalance's."""
+    arms = np.einsum("...ij,mj->...mi", rotation_matrix(orientations), platform_anchors)  # R b_i
+    arms = np.broadcast_to(arms, (len(positions), len(frame_anchors), 3))
+    cables = frame_anchors - positions[:, None, :] - arms
     lengths = np.linalg.norm(cables, axis=-1)
     directions = np.divide(cables, lengths[..., None], out=np.zeros_like(cables), where=lengths[..., None] > 0.0)
     moments = np.cross(arms, directions)
     structure_matrix = np.concatenate([directions, moments], axis=-1).swapaxes(-1, -2)
-    return CableGeometry(lengths=lengths, directions=directions, structure_matrix=structure_matrix)
+    return CableGeometry(lengths=lengths, directions=directions, arms=arms, structure_matrix=structure_matrix)
 
 
 def least_cable_lengths(robot: CableRobot, start: FloatArray, stop: FloatArray, orientation: FloatArray) -> FloatArray:

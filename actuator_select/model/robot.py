@@ -27,6 +27,8 @@ class Plane(StrEnum):
 
 # Rows of the wrench [force, moment] that lie in the plane: two forces, and the moment about the plane's normal.
 _PLANE_ROWS = {Plane.XZ: (0, 2, 4), Plane.XY: (0, 1, 5), Plane.YZ: (1, 2, 3)}
+_PLANE_AXES = {Plane.XZ: (0, 2), Plane.XY: (0, 1), Plane.YZ: (1, 2)}
+_PLANE_NORMAL = {Plane.XZ: 1, Plane.XY: 2, Plane.YZ: 0}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -189,6 +191,27 @@ class CableRobot:
             Freedom.PLANAR: in_plane,
             Freedom.SPATIAL: (0, 1, 2, 3, 4, 5),
         }[self.freedom]
+
+    @property
+    def translation_rows(self) -> tuple[int, ...]:
+        """The rows of `wrench_rows` that are forces."""
+        return tuple(row for row in self.wrench_rows if row < 3)  # noqa: PLR2004 - forces first
+
+    @property
+    def plane_normal(self) -> int:
+        """Axis about which a planar robot turns: 0 x, 1 y, 2 z."""
+        return _PLANE_NORMAL[self.plane]
+
+    @property
+    def free_axes(self) -> tuple[int, ...]:
+        """Axes along which the platform translates."""
+        planar = self.freedom in (Freedom.POINT_IN_PLANE, Freedom.PLANAR)
+        return _PLANE_AXES[self.plane] if planar else (0, 1, 2)
+
+    @property
+    def turning_axes(self) -> tuple[int, ...]:
+        """Axes about which the platform turns."""
+        return {Freedom.SPATIAL: (0, 1, 2), Freedom.PLANAR: (self.plane_normal,)}.get(self.freedom, ())
 
     @property
     def degrees_of_freedom(self) -> int:

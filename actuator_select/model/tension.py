@@ -7,6 +7,7 @@ import numpy as np
 
 from actuator_select.model.arrays import BoolArray, FloatArray, IntArray
 from actuator_select.model.dynamics import RequiredWrench
+from actuator_select.model.hyperplanes import WrenchSets
 
 RANK_TOLERANCE = 1e-9  # relative to the largest singular value
 BALANCE_TOLERANCE = 1e-9  # relative to the norm of the largest required wrench, N and N m taken alike
@@ -15,7 +16,50 @@ BALANCE_TOLERANCE = 1e-9  # relative to the norm of the largest required wrench,
 class TensionModel(StrEnum):
     """Rule by which tensions are found."""
 
+    WRENCH_FEASIBLE = "wrench_feasible"
+    FORCE_ONLY = "force_only"
     PSEUDO_INVERSE = "pseudo_inverse"
+
+    @property
+    def lets_cables_push(self) -> bool:
+        """Whether tensions may be negative."""
+        return self is TensionModel.PSEUDO_INVERSE
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PseudoInverse:
+    """W⁺ of Q structure matrices.
+
+    Attributes
+    ----------
+    matrix : (Q, m, n) array
+        W⁺.
+    residual_maker : (Q, n, n) array
+        E - W W⁺, what of a wrench is left unbalanced.
+    rank : (Q,) array
+        Of W.
+    """
+
+    matrix: FloatArray
+    residual_maker: FloatArray
+    rank: IntArray
+
+
+def pseudo_inverse(structure_matrix: FloatArray) -> PseudoInverse:
+    """Moore-Penrose inverse of (Q, n, m) structure matrices, N and N m taken alike.
+
+    References
+    ----------
+    Eq. 20 in Filipović & Kevac 2018, doi:10.22190/FUACR1802071F.
+    """
+    left, sigma, right = np.linalg.svd(structure_matrix, full_matrices=False)
+    kept = sigma > RANK_TOLERANCE * sigma[:, :1]
+    inverse_sigma = np.divide(1.0, sigma, out=np.zeros_like(sigma), where=kept)
+    matrix = right.swapaxes(-1, -2) @ (inverse_sigma[..., None] * left.swapaxes(-1, -2))
+    identity = np.eye(structure_matrix.shape[1])
+    return PseudoInverse(
+        matrix=matrix, residual_maker=identity - structure_matrix @ matrix, rank=kept.sum(axis=-1, dtype=np.int64)
+    )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -64,45 +108,49 @@ def pseudo_inverse_tensions(structure_matrix: FloatArray, wrench: RequiredWrench
     ----------
     Eq. 20 in Filipović & Kevac 2018, doi:10.22190/FUACR1802071F.
     """
-    left, sigma, right = np.linalg.svd(structure_matrix, full_matrices=False)
-    kept = sigma > RANK_TOLERANCE * sigma[:, :1]
-    inverse_sigma = np.divide(1.0, sigma, out=np.zeros_like(sigma), where=kept)
+    inverse = pseudo_inverse(structure_matrix)
     columns = np.column_stack([wrench.static, wrench.per_acceleration])  # (6, 4)
-    projected = left.swapaxes(-1, -2) @ columns
-    tensions = right.swapaxes(-1, -2) @ (inverse_sigma[..., None] * projected)  # (Q, m, 4)
+    tensions = inverse.matrix @ columns  # (Q, m, 4)
     residual = columns - structure_matrix @ tensions
     return CableTensions(
         static=np.ascontiguousarray(tensions[..., 0]),
         per_acceleration=np.ascontiguousarray(tensions[..., 1:]),
-        rank=kept.sum(axis=-1, dtype=np.int64),
+        rank=inverse.rank,
         residual_static=residual[..., 0],
         residual_per_acceleration=residual[..., 1:],
     )
 
 
-def unbalanced(
-    tensions: CableTensions, wrench: RequiredWrench, acceleration_lower: FloatArray, acceleration_upper: FloatArray
-) -> BoolArray:
-    """Tell the poses whose tensions do not balance the required wrench somewhere in a box of accelerations.
+def leaves_unbalanced(inverse: PseudoInverse, wrenches: WrenchSets, which: IntArray, shift: FloatArray) -> BoolArray:
+    """Tell where the pseudo-inverse leaves a part of the required wrenches unbalanced, (Q, G).
 
     Parameters
     ----------
-    tensions : CableTensions
+    inverse : PseudoInverse
         At Q poses.
-    wrench : RequiredWrench
-        What they should balance.
-    acceleration_lower, acceleration_upper : (3,) array
-        Corners of the box. [m/s²]
+    wrenches : WrenchSets
+        What is required, N and N m unscaled.
+    which : (Q,) array
+        Index of every pose's sets.
+    shift : (Q, n) array
+        Wrench that counterbalances supply.
 
     Returns
     -------
-    (Q,) array of bool
-        True where a component of the residual exceeds `BALANCE_TOLERANCE`.
+    (Q, G) array of bool
+        True where a component of the residual exceeds `BALANCE_TOLERANCE` of the wrenches.
     """
-    centre, half = (acceleration_lower + acceleration_upper) / 2.0, (acceleration_upper - acceleration_lower) / 2.0
-    middle = tensions.residual_static + tensions.residual_per_acceleration @ centre
-    largest = np.abs(middle) + np.abs(tensions.residual_per_acceleration) @ half
-    return exceeds_balance(largest, wrench, np.maximum(np.abs(acceleration_lower), np.abs(acceleration_upper)))
+    centre = wrenches.centre[which] - shift[:, None]
+    size = np.abs(centre) + np.abs(wrenches.segments[which]).sum(axis=2)
+    size += np.linalg.norm(wrenches.balls[which], axis=-1).sum(axis=2)
+    tolerance = BALANCE_TOLERANCE * np.linalg.norm(size, axis=-1)
+    worst = np.zeros(centre.shape[:2])
+    for row in range(centre.shape[-1]):
+        left = inverse.residual_maker[:, row]
+        middle = np.abs(np.einsum("qn,qgn->qg", left, centre))
+        np.maximum(worst, middle + wrenches.reach(left, which), out=worst)
+    exceeds: BoolArray = worst > tolerance
+    return exceeds
 
 
 def exceeds_balance(residual: FloatArray, wrench: RequiredWrench, acceleration: FloatArray) -> BoolArray:

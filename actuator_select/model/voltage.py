@@ -11,8 +11,9 @@ import numpy as np
 
 from actuator_select.model.actuation import VoltageLine, utilisation
 from actuator_select.model.arrays import FloatArray, IntArray
-from actuator_select.model.demand import Demand, centripetal_scale
-from actuator_select.model.motion import MotionKind
+from actuator_select.model.cable_motion import swing_scale
+from actuator_select.model.demand import Demand
+from actuator_select.model.motion import MotionKind, SetShape
 
 CELLS_AT_ONCE = 1 << 17  # (actuator, position, cable, sample) cells in one chunk: its scratch stays in the cache
 
@@ -26,7 +27,13 @@ class VoltageDemand:
     force, acceleration : (P, k) array
         Tension [N] and cable acceleration [m/s²] at the centre of the box of accelerations.
     force_reach, acceleration_reach : (P, k, 3) array
-        Their change from the centre to the box's face, per axis. [N, m/s²]
+        Their change with the platform's acceleration, from the centre of its set to the face, per axis. [N, m/s²]
+    force_extra, acceleration_extra : (P, k) array
+        What else they may change by, independently of that. [N, m/s²]
+    shape : SetShape
+        Of the set of accelerations: of a box the axes add up, of a ball the norm counts.
+    straight : bool
+        Whether velocity and acceleration have the same direction.
     speed_in, speed_out : (P, k) array
         Greatest cable speed winding in and out. [m/s]
     speed : float
@@ -34,7 +41,8 @@ class VoltageDemand:
     inverse_length : (P, k) array
         1/l, or 0 where the centripetal term is left out. [1/m]
     directions : (P, k, 3) array or None
-        Cable directions, where velocities are sampled and the centripetal term counts; None where extremes suffice.
+        Cable directions, where velocities are sampled and the centripetal term counts, or have the direction of the
+        acceleration; None where extremes suffice.
     velocities : (S, 3) array
         The samples. [m/s]
     """
@@ -43,6 +51,10 @@ class VoltageDemand:
     acceleration: FloatArray
     force_reach: FloatArray
     acceleration_reach: FloatArray
+    force_extra: FloatArray
+    acceleration_extra: FloatArray
+    shape: SetShape
+    straight: bool
     speed_in: FloatArray
     speed_out: FloatArray
     speed: float
@@ -53,7 +65,7 @@ class VoltageDemand:
     def worst(self, line: VoltageLine) -> FloatArray:
         """Largest |u|/(S R_w) over motions, cables and orientations, (C, P). [N]"""
         positions, cables = self.force.shape
-        samples = 1 if self.directions is None else len(self.velocities)
+        samples = max(1, len(self.velocities)) if self.directions is not None else 1
         result = np.empty((len(line.damping), positions))
         step = max(1, CELLS_AT_ONCE // (max(1, len(line.damping)) * cables * samples))
         for start in range(0, positions, step):
@@ -64,11 +76,34 @@ class VoltageDemand:
     def _worst(self, line: VoltageLine, chunk: slice) -> FloatArray:
         mass = line.reflected_mass[:, None, None]
         middle = self.force[chunk] + mass * self.acceleration[chunk]
+        extra = self.force_extra[chunk] + mass * self.acceleration_extra[chunk]
+        if self.straight:
+            worst: FloatArray = (self._along_lines(line, middle, chunk) + extra).max(axis=-1)
+            return worst
         reach = np.zeros_like(middle)
         for axis in range(3):
-            reach += np.abs(self.force_reach[chunk, :, axis] + mass * self.acceleration_reach[chunk, :, axis])
+            change = self.force_reach[chunk, :, axis] + mass * self.acceleration_reach[chunk, :, axis]
+            reach += np.abs(change) if self.shape is SetShape.BOX else change**2
+        if self.shape is SetShape.BALL:
+            reach = np.sqrt(reach)
         up, down = self._velocity_terms(line, chunk)
-        worst: FloatArray = (np.maximum(up + middle, down - middle) + reach).max(axis=-1)
+        worst = (np.maximum(up + middle, down - middle) + reach + extra).max(axis=-1)
+        return worst
+
+    def _along_lines(self, line: VoltageLine, middle: FloatArray, chunk: slice) -> FloatArray:
+        """Greatest magnitude where v = V e and a = ±A e for any direction e; the swing term at its worst, (C, p, k)."""
+        if self.directions is None:  # pragma: no cover - built together with `straight`
+            raise ValueError("straight-line moves need the cables' directions")
+        mass, damping = line.reflected_mass[:, None, None], line.damping[:, None, None]
+        plus, minus = np.zeros_like(middle), np.zeros_like(middle)
+        for axis in range(3):
+            fast = damping * self.speed * self.directions[chunk, :, axis]
+            change = self.force_reach[chunk, :, axis] + mass * self.acceleration_reach[chunk, :, axis]
+            plus += (fast + change) ** 2
+            minus += (fast - change) ** 2
+        reach = np.sqrt(np.maximum(plus, minus))
+        swing = mass * self.speed**2 * self.inverse_length[chunk]
+        worst: FloatArray = reach + np.maximum(middle, swing - middle)
         return worst
 
     def _velocity_terms(self, line: VoltageLine, chunk: slice) -> tuple[FloatArray, FloatArray]:
@@ -98,6 +133,8 @@ class VoltageDemand:
             acceleration=self.acceleration[positions],
             force_reach=self.force_reach[positions],
             acceleration_reach=self.acceleration_reach[positions],
+            force_extra=self.force_extra[positions],
+            acceleration_extra=self.acceleration_extra[positions],
             speed_in=self.speed_in[positions],
             speed_out=self.speed_out[positions],
             inverse_length=self.inverse_length[positions],
@@ -115,31 +152,97 @@ def voltage_demand(demand: Demand) -> VoltageDemand:
     Parameters
     ----------
     demand : Demand
-        At P positions and O orientations, on m cables.
+        At P positions with E cases each, on m cables.
 
     Returns
     -------
     VoltageDemand
-        With k = O·m.
+        With k = E·m under the pseudo-inverse. Under a model with bounded tensions k = 2·E·m: every cable once at the
+        pose's minimax tension, which bounds it from above, and once at its least tension.
+    """
+    undefined = np.where(demand.lengths > 0.0, 0.0, np.inf)
+    parts = [_linear(demand)] if demand.tensions is not None else [_bounded(demand, demand.force)]
+    if demand.tensions is None:
+        parts.append(_bounded(demand, np.broadcast_to(demand.tension_min, demand.force.shape)))
+    gathered = {name: np.concatenate([part[name] for part in parts], axis=1) for name in parts[0]}
+    gathered["force"] = gathered["force"] + np.tile(demand.by_position(undefined), len(parts))
+    motion = demand.motion
+    sampled = motion.kind is MotionKind.SAMPLED and motion.centripetal
+    straight = motion.kind is MotionKind.STRAIGHT and demand.tensions is not None
+    directions = np.concatenate([demand.by_position(demand.directions)] * len(parts), axis=1)
+    return VoltageDemand(
+        shape=motion.acceleration_shape if demand.tensions is not None else SetShape.BOX,
+        straight=straight,
+        speed=motion.speed_bound,
+        directions=directions if sampled or straight else None,
+        velocities=motion.velocities if sampled else motion.velocities[:0],
+        **gathered,
+    )
+
+
+def _linear(demand: Demand) -> dict[str, FloatArray]:
+    """Under the pseudo-inverse: force and cable acceleration change together with the platform's acceleration."""
+    motion, tensions = demand.motion, demand.tensions
+    if tensions is None:  # pragma: no cover - the caller asked
+        raise ValueError("tensions that are not linear")
+    reach = np.zeros(3) if motion.kind is MotionKind.LISTED else motion.acceleration_reach
+    alone = _reach_of_acceleration(demand)
+    scale, middle, extra = _swing(demand)
+    fields = {
+        "force": tensions.middle,
+        "acceleration": middle,
+        "force_reach": tensions.per_acceleration * reach,
+        "acceleration_reach": demand.directions * reach,
+        "force_extra": tensions.other_reach,
+        "acceleration_extra": np.maximum(0.0, extra - alone),
+        "speed_in": demand.speed_in,
+        "speed_out": demand.speed_out,
+        "inverse_length": scale,
+    }
+    return {name: demand.by_position(values) for name, values in fields.items()}
+
+
+def _bounded(demand: Demand, force: FloatArray) -> dict[str, FloatArray]:
+    """At a constant tension: the whole range of the cable's acceleration is independent of it."""
+    nothing = np.zeros((*demand.lengths.shape, 3))
+    scale, middle, extra = _swing(demand)
+    fields = {
+        "force": force,
+        "acceleration": middle,
+        "force_reach": nothing,
+        "acceleration_reach": nothing,
+        "force_extra": nothing[..., 0],
+        "acceleration_extra": extra,
+        "speed_in": demand.speed_in,
+        "speed_out": demand.speed_out,
+        "inverse_length": scale,
+    }
+    return {name: demand.by_position(values) for name, values in fields.items()}
+
+
+def _reach_of_acceleration(demand: Demand) -> FloatArray:
+    motion = demand.motion
+    if motion.kind is MotionKind.LISTED:
+        return np.zeros_like(demand.lengths)
+    if motion.acceleration_shape is SetShape.BALL:
+        result: FloatArray = np.linalg.norm(demand.directions, axis=-1) * motion.acceleration_reach[0]
+        return result
+    result = np.abs(demand.directions) @ motion.acceleration_reach
+    return result
+
+
+def _swing(demand: Demand) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Swing coefficient, middle and half range of the cable's acceleration, each (Q, m).
+
+    Of a platform that does not turn the swing term is (V² - v²)/l, coupled with the cable's speed, and stays apart;
+    else its range is taken as independent: a safe bound.
     """
     motion = demand.motion
-    centre, reach = motion.acceleration_centre, motion.acceleration_reach
-    undefined = np.where(demand.lengths > 0.0, 0.0, np.inf)
-    force = demand.static_tension + demand.tension_per_acceleration @ centre + undefined
-    scale = centripetal_scale(demand.lengths, motion)
-    sampled = motion.kind is MotionKind.SAMPLED and motion.centripetal
-    return VoltageDemand(
-        force=demand.by_position(force),
-        acceleration=demand.by_position(demand.directions @ centre),
-        force_reach=demand.by_position(demand.tension_per_acceleration * reach),
-        acceleration_reach=demand.by_position(demand.directions * reach),
-        speed_in=demand.by_position(demand.speed_in),
-        speed_out=demand.by_position(demand.speed_out),
-        speed=motion.speed,
-        inverse_length=demand.by_position(scale),
-        directions=demand.by_position(demand.directions) if sampled else None,
-        velocities=motion.velocities,
-    )
+    if motion.turns or motion.kind is MotionKind.LISTED:
+        middle = demand.acceleration_middle - (demand.swing_min + demand.swing_max) / 2.0
+        extra = demand.acceleration_reach + (demand.swing_max - demand.swing_min) / 2.0
+        return np.zeros_like(demand.lengths), middle, extra
+    return swing_scale(demand.lengths, motion), demand.acceleration_middle, demand.acceleration_reach
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -150,8 +253,8 @@ class VoltageTally:
     ----------
     limit : (C,) array
         Cable force that the full voltage holds at standstill, with the rounding that is forgiven. [N]
-    alone, joint : (C,) array
-        Positions at which the voltage limit holds; the same where the other checks hold too.
+    alone : (C,) array
+        Positions at which the limit holds.
     worst : (C,) array
         Largest demand so far. [N]
     worst_position : (C,) array
@@ -160,6 +263,5 @@ class VoltageTally:
 
     limit: FloatArray
     alone: IntArray
-    joint: IntArray
     worst: FloatArray
     worst_position: IntArray

@@ -6,6 +6,7 @@ import numpy as np
 
 from actuator_select.model.actuation import VoltageLine, utilisation
 from actuator_select.model.arrays import BoolArray, FloatArray, IntArray
+from actuator_select.model.motion import SetShape
 from actuator_select.model.voltage import VoltageDemand, VoltageTally
 
 KERNEL_PAYS_FROM = 60_000_000  # (actuator, position, cable) cells; below, NumPy is done before a compiler is loaded
@@ -14,7 +15,7 @@ Kernel = Callable[[VoltageDemand, VoltageLine, BoolArray, VoltageTally], None]
 
 
 class VoltageCounter:
-    """Counts the positions within the voltage limit, alone and together with the other checks.
+    """Counts the positions within a limit that falls with speed and acceleration, alone and with the other checks.
 
     Parameters
     ----------
@@ -41,7 +42,6 @@ class VoltageCounter:
         self._tally = VoltageTally(
             limit=self._line.force_limit * (1.0 + rounding),
             alone=np.zeros(count, dtype=np.int64),
-            joint=np.zeros(count, dtype=np.int64),
             worst=np.full(count, -np.inf),
             worst_position=np.full(count, -1, dtype=np.int64),
         )
@@ -50,20 +50,24 @@ class VoltageCounter:
         typical = self._line.take(np.array([_median_index(self._line.reflected_mass)])) if count else None
         self.order: IntArray = np.arange(len(rows.force)) if typical is None else np.argsort(-rows.worst(typical)[0])
 
-    def add(self, positions: IntArray, others: BoolArray) -> None:
+    def add(self, positions: IntArray, passes: BoolArray) -> None:
         """Count the positions at these indices.
 
         Parameters
         ----------
         positions : (p,) array
             Each position once over all calls.
-        others : (C, p) array of bool
-            Where the other checks hold.
+        passes : (C, p) array of bool
+            Where the other checks hold; updated in place to where this limit holds too.
         """
         if len(self._known) == 0:
             return
         self._tally.worst_position.fill(-1)
-        self._count_chunk(self._rows.take(positions), self._line, others[self._known], self._tally)
+        everyone = len(self._known) == self._actuators
+        own = passes if everyone else passes[self._known]
+        self._count_chunk(self._rows.take(positions), self._line, own, self._tally)
+        if not everyone:
+            passes[self._known] = own
         moved = self._tally.worst_position >= 0
         self._worst_position[moved] = positions[self._tally.worst_position[moved]]
 
@@ -85,11 +89,6 @@ class VoltageCounter:
         return self._spread(self._tally.alone)
 
     @property
-    def joint(self) -> IntArray:
-        """Positions within every limit, (C,)."""
-        return self._spread(self._tally.joint)
-
-    @property
     def worst_utilisation(self) -> FloatArray:
         """Largest |u|/U, (C,)."""
         result = np.full(self._actuators, np.nan)
@@ -107,8 +106,9 @@ def _median_index(values: FloatArray) -> int:
 
 
 def _kernel(rows: VoltageDemand, actuators: int) -> Kernel:
-    """Choose the compiled counter where it pays and exists; it knows no sampled centripetal terms."""
-    if rows.directions is not None or actuators * rows.force.size < KERNEL_PAYS_FROM:
+    """Choose the compiled counter where it pays and exists; it knows boxes of accelerations, and no samples or lines."""
+    coupled = rows.shape is SetShape.BALL and bool(rows.force_reach.any())
+    if rows.directions is not None or coupled or actuators * rows.force.size < KERNEL_PAYS_FROM:
         return count_with_numpy
     try:
         from actuator_select.model.voltage_kernel import count
@@ -117,7 +117,7 @@ def _kernel(rows: VoltageDemand, actuators: int) -> Kernel:
     return count
 
 
-def count_with_numpy(rows: VoltageDemand, line: VoltageLine, others: BoolArray, tally: VoltageTally) -> None:
+def count_with_numpy(rows: VoltageDemand, line: VoltageLine, passes: BoolArray, tally: VoltageTally) -> None:
     """Evaluate every cell; the definition that the compiled counter has to agree with.
 
     Parameters
@@ -126,15 +126,15 @@ def count_with_numpy(rows: VoltageDemand, line: VoltageLine, others: BoolArray, 
         At p positions.
     line : VoltageLine
         Of C actuators, every figure known.
-    others : (C, p) array of bool
-        Where the other checks hold.
+    passes : (C, p) array of bool
+        Where the other checks hold; updated in place.
     tally : VoltageTally
         Updated in place.
     """
     demand = rows.worst(line)
     holds = (demand <= tally.limit[:, None]) & np.isfinite(demand)
     tally.alone[:] += holds.sum(axis=1)
-    tally.joint[:] += (holds & others).sum(axis=1)
+    passes &= holds
     where = demand.argmax(axis=1)
     largest = demand[np.arange(len(demand)), where]
     moved = largest > tally.worst

@@ -29,12 +29,12 @@ DOUBT = 1e-9  # relative; a lower bound rejects only where it exceeds the limit 
 POSITIONS_AT_ONCE = 512  # positions whose bounds stay in a core's cache while all actuators pass over them
 
 
-def count(rows: VoltageDemand, line: VoltageLine, others: BoolArray, tally: VoltageTally) -> None:
+def count(rows: VoltageDemand, line: VoltageLine, passes: BoolArray, tally: VoltageTally) -> None:
     """As `voltage_count.count_with_numpy`, on every core.
 
     Parameters
     ----------
-    rows, line, others, tally
+    rows, line, passes, tally
         As there; velocities not sampled with the centripetal term.
     """
     table = _pack(rows)
@@ -58,10 +58,9 @@ def count(rows: VoltageDemand, line: VoltageLine, others: BoolArray, tally: Volt
             line.reflected_mass[part],
             line.damping[part],
             interval[part],
-            others[part],
+            passes[part],
             tally.limit[part],
             tally.alone[part],
-            tally.joint[part],
             tally.worst[part],
             tally.worst_position[part],
         )
@@ -89,7 +88,7 @@ def _knots(masses: FloatArray) -> FloatArray:
 
 
 def _pack(rows: VoltageDemand) -> FloatArray:
-    """One contiguous block per position, (P, 12, k)."""
+    """One contiguous block per position, (P, 14, k)."""
     length = np.divide(
         1.0, rows.inverse_length, out=np.zeros_like(rows.inverse_length), where=rows.inverse_length > 0.0
     )
@@ -103,6 +102,8 @@ def _pack(rows: VoltageDemand) -> FloatArray:
             rows.speed_out,
             rows.inverse_length,
             length,
+            rows.force_extra,
+            rows.acceleration_extra,
         ],
         axis=1,
     )
@@ -120,6 +121,8 @@ def _worst(row, speed, mass, damping):  # type: ignore[no-untyped-def]  # noqa: 
             abs(row[2, cable] + mass * row[5, cable])
             + abs(row[3, cable] + mass * row[6, cable])
             + abs(row[4, cable] + mass * row[7, cable])
+            + row[12, cable]
+            + mass * row[13, cable]
         )
         middle = row[0, cable] + mass * row[1, cable]
         up = damping * row[8, cable] + middle
@@ -142,7 +145,9 @@ def _tabulate(table, knots, speed, upper, lower):  # type: ignore[no-untyped-def
                 reach = (
                     abs(row[2, cable] + mass * row[5, cable])
                     + abs(row[3, cable] + mass * row[6, cable])
-                    + abs(row[4, cable] + mass * row[7, cable])
+                        + abs(row[4, cable] + mass * row[7, cable])
+                    + row[12, cable]
+                    + mass * row[13, cable]
                 )
                 middle = row[0, cable] + mass * row[1, cable]
                 winding_in = max(winding_in, middle + reach)
@@ -163,10 +168,9 @@ def _count(  # type: ignore[no-untyped-def]  # noqa: ANN202, C901, PLR0913, PLR0
     masses,  # noqa: ANN001
     dampings,  # noqa: ANN001
     interval,  # noqa: ANN001
-    others,  # noqa: ANN001
+    passes,  # noqa: ANN001
     limits,  # noqa: ANN001
     alone,  # noqa: ANN001
-    joint,  # noqa: ANN001
     worst,  # noqa: ANN001
     where,  # noqa: ANN001
 ):
@@ -180,14 +184,13 @@ def _count(  # type: ignore[no-untyped-def]  # noqa: ANN202, C901, PLR0913, PLR0
             before, after = max(below - 1, 0), min(below + 2, last)
             left = (mass - knots[below]) / (knots[below] - knots[before]) if before < below else 0.0
             right = (knots[below + 1] - mass) / (knots[after] - knots[below + 1]) if after > below + 1 else 0.0
-            largest, holding, holding_all = worst[actuator], 0, 0
+            largest, holding = worst[actuator], 0
             for position in range(start, stop):
                 base = upper[below, position]
                 above = damping * fastest[position] + base + share * (upper[below + 1, position] - base)
                 if above <= largest:
                     if above <= limit and above < np.inf:
                         holding += 1
-                        holding_all += others[actuator, position]
                         continue
                     beneath = -np.inf
                     if before < below:
@@ -198,6 +201,7 @@ def _count(  # type: ignore[no-untyped-def]  # noqa: ANN202, C901, PLR0913, PLR0
                             lower[below + 1, position] - right * (lower[after, position] - lower[below + 1, position]),
                         )
                     if beneath + damping * slowest[position] > limit + DOUBT * abs(above):
+                        passes[actuator, position] = False
                         continue
                 demand = _worst(table[position], speed, mass, damping)
                 if demand > largest:
@@ -205,7 +209,7 @@ def _count(  # type: ignore[no-untyped-def]  # noqa: ANN202, C901, PLR0913, PLR0
                     where[actuator] = position
                 if demand <= limit and demand < np.inf:
                     holding += 1
-                    holding_all += others[actuator, position]
+                else:
+                    passes[actuator, position] = False
             worst[actuator] = largest
             alone[actuator] += holding
-            joint[actuator] += holding_all
