@@ -8,8 +8,9 @@ import numpy as np
 from actuator_select.model.actuation import torque_ratio
 from actuator_select.model.arrays import FloatArray, IntArray
 from actuator_select.model.components import ActuatorSet
-from actuator_select.model.demand import Demand, centripetal_scale
-from actuator_select.model.motion import MotionKind
+from actuator_select.model.cable_motion import swing_scale
+from actuator_select.model.demand import Demand
+from actuator_select.model.motion import MotionKind, SetShape
 
 SEED = 20180703  # the sample is the same at every run
 SPEEDS = 9  # cable speeds from the greatest out to the greatest in
@@ -25,7 +26,8 @@ class DriveCloud:
     speed : (S,) array
         [rad/s]
     load_torque : (S,) array
-        Of the cable's tension, as the torque limit of eq. 32 counts it. [N m]
+        Of the cable's tension, as the torque limit of eq. 32 counts it; where tensions are bounded, of the minimax
+        tension of the pose. NaN at poses that no drive could hold. [N m]
     total_torque : (S,) array
         With the rotor's acceleration, as the voltage limit of eq. 34 counts it. [N m]
     """
@@ -58,10 +60,12 @@ def drive_cloud(demand: Demand, actuator: ActuatorSet, points: int, positions: I
     corners = np.array(
         list(product(*zip(demand.motion.acceleration_lower, demand.motion.acceleration_upper, strict=True)))
     )
+    if demand.motion.acceleration_shape is SetShape.BALL:
+        corners = corners / np.sqrt(3.0)  # on the ball, where the box's corners point
     generator = np.random.default_rng(SEED)
     choices = max(1, len(demand.motion.velocities)) if demand.motion.kind is MotionKind.SAMPLED else 2 * SPEEDS
-    orientations = len(demand.orientations)
-    covered = (np.asarray(positions, dtype=np.int64)[:, None] * orientations + np.arange(orientations)).ravel()
+    cases = poses // len(demand.positions)
+    covered = (np.asarray(positions, dtype=np.int64)[:, None] * cases + np.arange(cases)).ravel()
     shape = (len(covered), cables, choices, len(corners))
     total = int(np.prod(shape))
     flat = np.arange(total) if total <= MOST_COVERED else generator.choice(total, size=MOST_COVERED, replace=False)
@@ -74,8 +78,11 @@ def drive_cloud(demand: Demand, actuator: ActuatorSet, points: int, positions: I
     share = np.concatenate([np.linspace(-1.0, 1.0, SPEEDS)[every[:, 2] % SPEEDS], generator.uniform(-1.0, 1.0, points)])
     speed, centripetal = _motions(demand, pose, cable, choice, share)
     acceleration = (demand.directions[pose, cable] * corners[corner]).sum(axis=1) - centripetal
-    per_acceleration = demand.tension_per_acceleration[pose, cable]
-    tension = demand.static_tension[pose, cable] + (per_acceleration * corners[corner]).sum(axis=1)
+    if demand.tensions is None:
+        tension = np.where(demand.attainable[pose], demand.force[pose, cable], np.nan)
+    else:
+        per_acceleration = demand.tensions.per_acceleration[pose, cable]
+        tension = demand.tensions.static[pose, cable] + (per_acceleration * corners[corner]).sum(axis=1)
     ratio, radius = float(actuator.ratio[0]), float(actuator.drum_radius[0])
     load = tension * radius / float(torque_ratio(actuator)[0])
     return DriveCloud(
@@ -94,7 +101,7 @@ def _motions(
     greatest speed goes across it.
     """
     motion = demand.motion
-    scale = centripetal_scale(demand.lengths, motion)[pose, cable]
+    scale = swing_scale(demand.lengths, motion)[pose, cable]
     if motion.kind is MotionKind.SAMPLED:
         velocity = motion.velocities[choice]
         speed = (demand.directions[pose, cable] * velocity).sum(axis=1)

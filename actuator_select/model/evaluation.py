@@ -24,6 +24,7 @@ from actuator_select.model.actuation import (
 from actuator_select.model.arrays import BoolArray, FloatArray, IntArray
 from actuator_select.model.components import ActuatorSet
 from actuator_select.model.demand import Demand, Progress
+from actuator_select.model.tension import TensionModel
 from actuator_select.model.voltage import voltage_demand
 from actuator_select.model.voltage_count import VoltageCounter
 
@@ -76,9 +77,12 @@ class Evaluation:
     positions: IntArray
 
 
-def missing_figures(actuators: ActuatorSet, check: Check) -> list[tuple[str, ...]]:
-    """Figures that `check` needs and an actuator lacks, one tuple per actuator."""
-    unknown = {name: np.isnan(getattr(actuators, name)) for name in FIGURES_NEEDED[check]}
+def missing_figures(actuators: ActuatorSet, check: Check, model: TensionModel) -> list[tuple[str, ...]]:
+    """Figures that `check` needs under a tension model and an actuator lacks, one tuple per actuator."""
+    needed = FIGURES_NEEDED[check]
+    if check is Check.ACCELERATION and not model.lets_cables_push:  # of load and rotor together
+        needed = tuple(dict.fromkeys(FIGURES_NEEDED[Check.TORQUE] + needed))
+    unknown = {name: np.isnan(getattr(actuators, name)) for name in needed}
     return [tuple(name for name, missing in unknown.items() if missing[index]) for index in range(len(actuators))]
 
 

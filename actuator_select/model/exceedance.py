@@ -78,7 +78,7 @@ def _local_maxima(history: DriveHistory, limits: dict[Check, float]) -> IntArray
     found = np.zeros(len(history.times), dtype=np.bool_)
     same = (history.phases[1:] == history.phases[:-1])[:, None]
     for check in Check:
-        values = np.abs(history.of(check))
+        values = np.nan_to_num(np.abs(history.of(check)))  # infeasible instants have no value
         edge = np.ones((1, values.shape[1]), dtype=np.bool_)
         # A rise within rounding is none: a cable along the move has flat histories, all of whose points would count.
         flat = FLAT * values.max(axis=0)
@@ -92,10 +92,10 @@ def _local_maxima(history: DriveHistory, limits: dict[Check, float]) -> IntArray
 def peaks(history: DriveHistory, check: Check) -> tuple[FloatArray, FloatArray]:
     """Largest magnitude per cable and when, two (m,) arrays; NaN where a figure is unknown."""
     values = np.abs(history.of(check))
-    if np.isnan(values).any():
+    if np.isnan(values).all(axis=0).any():
         unknown = np.full(values.shape[1], np.nan)
         return unknown, unknown
-    at = values.argmax(axis=0)
+    at = np.nanargmax(values, axis=0)  # infeasible instants have none
     return values[at, np.arange(values.shape[1])], history.times[at]
 
 
@@ -134,7 +134,7 @@ def _stretches(
             check=check,
             start=_crossing(driven, history, check, cable, limit, int(first) - 1),
             stop=_crossing(driven, history, check, cable, limit, int(behind) - 1),
-            worst=float(values[first:behind].max()),
+            worst=float(np.nanmax(values[first:behind])),
             limit=limit,
         )
         for first, behind in zip(edges[::2], edges[1::2], strict=True)

@@ -59,8 +59,8 @@ def rotation_matrix(orientation: FloatArray) -> FloatArray:
     return np.stack([np.stack(row, axis=-1) for row in rows], axis=-2)
 
 
-def position_grid(region: FloatArray, points: tuple[int, int, int]) -> FloatArray:
-    """Positions of a regular grid, both ends included; a single point on an axis stands in its middle.
+def position_grid(region: FloatArray, points: tuple[int, int, int], *, midpoints: bool = False) -> FloatArray:
+    """Positions of a regular grid; a single point on an axis stands in its middle.
 
     Parameters
     ----------
@@ -68,16 +68,18 @@ def position_grid(region: FloatArray, points: tuple[int, int, int]) -> FloatArra
         Lower and upper end of each axis. [m]
     points : tuple of int
         Number of points on each axis, at least 1.
+    midpoints : bool
+        Take the midpoints of so many equal cells instead of nodes with both ends included.
 
     Returns
     -------
     (P, 3) array
         z varies fastest. [m]
     """
-    axes = [
-        np.linspace(lower, upper, count) if count > 1 else np.array([(lower + upper) / 2.0])
-        for (lower, upper), count in zip(region, points, strict=True)
-    ]
+    axes = []
+    for (lower, upper), count in zip(region, points, strict=True):
+        half = (upper - lower) / (2.0 * count) if midpoints or count == 1 else 0.0
+        axes.append(np.linspace(lower + half, upper - half, count))
     return np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 3)
 
 

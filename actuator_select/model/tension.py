@@ -151,26 +151,3 @@ def leaves_unbalanced(inverse: PseudoInverse, wrenches: WrenchSets, which: IntAr
         np.maximum(worst, middle + wrenches.reach(left, which), out=worst)
     exceeds: BoolArray = worst > tolerance
     return exceeds
-
-
-def exceeds_balance(residual: FloatArray, wrench: RequiredWrench, acceleration: FloatArray) -> BoolArray:
-    """Tell where a residual is more than rounding.
-
-    Parameters
-    ----------
-    residual : (..., 6) array
-        Required wrench less the wrench of the tensions. [N, N m]
-    wrench : RequiredWrench
-        What is required.
-    acceleration : (..., 3) array
-        Its magnitudes, axis by axis. [m/s²]
-
-    Returns
-    -------
-    (...) array of bool
-        True where a component exceeds `BALANCE_TOLERANCE` of the required wrench.
-    """
-    reach = np.abs(wrench.static) + acceleration @ np.abs(wrench.per_acceleration).T
-    tolerance = BALANCE_TOLERANCE * np.linalg.norm(reach, axis=-1, keepdims=True)
-    exceeds: BoolArray = np.any(np.abs(residual) > tolerance, axis=-1)
-    return exceeds

@@ -13,10 +13,10 @@ from actuator_select.model.actuation import (
 )
 from actuator_select.model.arrays import BoolArray, FloatArray, IntArray
 from actuator_select.model.components import ActuatorSet
+from actuator_select.model.distribution import distribute
 from actuator_select.model.dynamics import RequiredWrench
-from actuator_select.model.kinematics import cable_geometry
 from actuator_select.model.robot import CableRobot
-from actuator_select.model.tension import exceeds_balance, pseudo_inverse_tensions
+from actuator_select.model.tension import TensionModel
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -139,8 +139,9 @@ class DriveHistory:
         Load torque on that shaft. [N m]
     voltage : (S, m) array
         At the motor's terminals. [V]
-    rank_deficient, unbalanced : (S,) array of bool
-        Where the structure matrix is short of rank, and where the tensions do not balance the required wrench.
+    rank_deficient, unbalanced, infeasible : (S,) array of bool
+        Where the structure matrix is short of rank, where the tensions do not balance the required wrench, and where
+        no tensions within their bounds would; there tension, torque and voltage are NaN.
     """
 
     times: FloatArray
@@ -152,6 +153,7 @@ class DriveHistory:
     voltage: FloatArray
     rank_deficient: BoolArray
     unbalanced: BoolArray
+    infeasible: BoolArray
 
     def of(self, check: Check) -> FloatArray:
         """History of the quantity that `check` limits, (S, m)."""
@@ -194,7 +196,9 @@ class DrivenMove:
     robot : CableRobot
         With m cables.
     wrench : RequiredWrench
-        What the cables must supply together.
+        What the cables must supply together, at the move's orientation.
+    tension_model : TensionModel
+        How they share it: see `distribution`.
     move : LineMove
         The motion, off the anchors: see `kinematics.least_cable_lengths`.
     actuator : ActuatorSet
@@ -203,6 +207,7 @@ class DrivenMove:
 
     robot: CableRobot
     wrench: RequiredWrench
+    tension_model: TensionModel
     move: LineMove
     actuator: ActuatorSet
 
@@ -217,7 +222,7 @@ class DrivenMove:
         Returns
         -------
         DriveHistory
-            Under the pseudo-inverse tension model; NaN where a figure is unknown.
+            NaN where a figure is unknown.
 
         References
         ----------
@@ -229,11 +234,12 @@ class DrivenMove:
             chosen = phases == phase
             path[chosen], speed[chosen], acceleration[chosen] = move.profile.motion(times[chosen], phase)
         line = (move.stop - move.start) / move.profile.distance
-        geometry = cable_geometry(self.robot, move.start + path[:, None] * line, move.orientation)
-        tensions = pseudo_inverse_tensions(geometry.structure_matrix, self.wrench)
         along_line = acceleration[:, None] * line
-        residual = tensions.residual_static + np.einsum("sij,sj->si", tensions.residual_per_acceleration, along_line)
-        tension = tensions.static + tensions.per_acceleration @ line * acceleration[:, None]
+        wrenches = self.wrench.static + along_line @ self.wrench.per_acceleration.T
+        shared = distribute(
+            self.robot, self.tension_model, move.start + path[:, None] * line, move.orientation, wrenches
+        )
+        geometry, tension = shared.geometry, shared.tension
         along = geometry.directions @ line  # cosine between cable and line
         cable_speed = along * speed[:, None]
         cable_acceleration = along * acceleration[:, None]
@@ -249,8 +255,9 @@ class DrivenMove:
             speed=shaft_speed,
             acceleration=shaft_acceleration,
             torque=torque,
-            rank_deficient=tensions.rank < self.robot.degrees_of_freedom,
-            unbalanced=exceeds_balance(residual, self.wrench, np.abs(along_line)),
+            rank_deficient=shared.rank < self.robot.degrees_of_freedom,
+            unbalanced=shared.unbalanced,
+            infeasible=np.isinf(shared.minimax_tension),
             voltage=shaft.inertia_gain * shaft_acceleration
             + shaft.damping_gain * shaft_speed
             + shaft.load_gain * torque,  # eq. 21

@@ -233,9 +233,22 @@ def evaluate(
 
 def evaluate_candidates(study: Study, candidates: Candidates, progress: Progress | None = None) -> StudyEvaluation:
     """As `evaluate`, for candidates at hand."""
-    demand = compute_demand(study.robot, study.positions, study.orientations, study.wrench, study.motion, progress)
+    demand = study_demand(study, progress)
     evaluation = evaluate_actuators(demand, candidates.actuators, study.checks, progress)
     return StudyEvaluation(study=study, candidates=candidates, evaluation=evaluation)
+
+
+def study_demand(study: Study, progress: Progress | None = None) -> Demand:
+    """What a study asks, whatever drives the robot."""
+    return compute_demand(
+        study.robot,
+        study.positions,
+        study.orientations,
+        study.wrenches,
+        study.motion,
+        tension_model=study.tension_model,
+        progress=progress,
+    )
 
 
 def rank(
@@ -300,7 +313,7 @@ def rank_result(result: StudyEvaluation, *, require: float | None, fingerprint: 
         raise InvalidInput("the requirement does not hold", [problem])
     evaluation = result.evaluation
     verdict = verdicts(evaluation, required)
-    missing = {check: missing_figures(evaluation.actuators, check) for check in evaluation.checks}
+    missing = {check: missing_figures(evaluation.actuators, check, result.study.tension_model) for check in evaluation.checks}
     total = len(result.study.positions)
     ranked = tuple(
         RankedActuator(

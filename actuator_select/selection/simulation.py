@@ -72,7 +72,7 @@ class Simulation:
     @property
     def missing(self) -> dict[Check, tuple[str, ...]]:
         """Checks that could not be evaluated, with the figures that they lack."""
-        lacking = {check: missing_figures(self.candidates.actuators, check)[0] for check in Check}
+        lacking = {check: missing_figures(self.candidates.actuators, check, self.study.tension_model)[0] for check in Check}
         return {check: figures for check, figures in lacking.items() if figures}
 
     @property
@@ -170,7 +170,13 @@ def simulate_candidate(
 ) -> Simulation:
     """As `simulate`, for an actuator at hand; `place` names the line in messages."""
     move = _line_move(study, start, stop, orientation, place)
-    driven = DrivenMove(robot=study.robot, wrench=study.wrench, move=move, actuator=candidate.actuators)
+    driven = DrivenMove(
+        robot=study.robot,
+        wrench=study.wrench(move.orientation),
+        tension_model=study.tension_model,
+        move=move,
+        actuator=candidate.actuators,
+    )
     if least_cable_lengths(study.robot, move.start, move.stop, move.orientation).min() < LEAST_CABLE_LENGTH:
         problem = Problem(
             place=place,

@@ -4,7 +4,7 @@ from collections.abc import Iterator, Mapping
 from copy import deepcopy
 from dataclasses import dataclass, replace
 from importlib import resources
-from math import prod
+from itertools import product
 from pathlib import Path
 
 import numpy as np
@@ -15,17 +15,27 @@ from tomlkit.exceptions import TOMLKitError
 from actuator_select.errors import InvalidStudy, Problem, UnknownName, did_you_mean
 from actuator_select.model.actuation import Check
 from actuator_select.model.arrays import FloatArray
-from actuator_select.model.dynamics import RequiredWrench, required_wrench
+from actuator_select.model.dynamics import Load, RequiredWrench, platform_wrench
 from actuator_select.model.kinematics import LEAST_CABLE_LENGTH, least_cable_lengths, position_grid
-from actuator_select.model.motion import MotionSet, independent_motion, sampled_motion
-from actuator_select.model.robot import CableRobot, cpr8, cpr8_region
+from actuator_select.model.motion import (
+    MotionKind,
+    MotionSet,
+    SetShape,
+    independent_motion,
+    listed_motion,
+    rest,
+    sampled_motion,
+)
+from actuator_select.model.robot import CableRobot
 from actuator_select.model.tension import TensionModel
+from actuator_select.study.building import build_robot, rigid_body
 from actuator_select.study.overrides import apply_overrides
 from actuator_select.study.problems import study_problems
-from actuator_select.study.schema import MotionTable, RobotTable, StudyTable, WorkspaceTable
+from actuator_select.study.refusals import refuse_too_many_poses, refuse_what_cannot_be
+from actuator_select.study.schema import PayloadTable, StudyTable, WorkspaceTable
 
-MOST_CABLE_POSES = 8_000_000  # poses times cables; some 2.4 GB of demand
-VARIANT_TABLES = ("gravity_m_per_s2", "robot", "payload", "workspace", "motion", "tension", "checks")
+VARIANT_TABLES = ("gravity_m_per_s2", "robot", "cables", "payload", "workspace", "motion", "tension", "checks")
+NOT_IN_VARIANTS = ("variant", "sweep", "note")
 
 _STUDIES = resources.files("actuator_select") / "studies"
 
@@ -69,8 +79,8 @@ class Study:
         Grid over the region. [m]
     orientations : (O, 3) array
         Angles ψ, θ, φ at every position. [rad]
-    wrench : RequiredWrench
-        What the cables must supply together.
+    loads : tuple of Load
+        What is carried; a position has to hold with each.
     motion : MotionSet
         Velocities and accelerations.
     tension_model : TensionModel
@@ -88,11 +98,27 @@ class Study:
     region: FloatArray
     positions: FloatArray
     orientations: FloatArray
-    wrench: RequiredWrench
+    loads: tuple[Load, ...]
     motion: MotionSet
     tension_model: TensionModel
     checks: tuple[Check, ...]
     variants: tuple[Variant, ...] = ()
+
+    def wrench(self, orientation: FloatArray, load: int = 0) -> RequiredWrench:
+        """Required wrench at an orientation [rad], of one of the loads."""
+        return platform_wrench([self.robot.platform], self.table.gravity_m_per_s2, orientation, self.loads[load])
+
+    @property
+    def wrenches(self) -> list[list[RequiredWrench]]:
+        """Required wrench at every orientation, of every load."""
+        return [[self.wrench(one, load) for load in range(len(self.loads))] for one in self.orientations]
+
+    @property
+    def cell_size(self) -> FloatArray:
+        """Distance of neighbouring grid positions along each axis, 0 where there is a single one, (3,). [m]"""
+        points = np.array(self.table.workspace.points)
+        cells = points if self.table.workspace.grid == "midpoints" else np.maximum(points - 1, 1)
+        return np.where(points > 1, (self.region[:, 1] - self.region[:, 0]) / cells, 0.0)
 
 
 def builtin_studies() -> list[str]:
@@ -126,7 +152,9 @@ def study_text(study: str | Path, overrides: Mapping[str, object] | None = None)
     return _overridden(text, overrides, str(study)) if overrides else text
 
 
-def load_study(study: str | Path, overrides: Mapping[str, object] | None = None) -> Study:
+def load_study(
+    study: str | Path, overrides: Mapping[str, object] | None = None, *, limit: bool = True
+) -> Study:
     """Load a study and check all of it.
 
     Parameters
@@ -135,6 +163,8 @@ def load_study(study: str | Path, overrides: Mapping[str, object] | None = None)
         Name of a built-in study, or a TOML file.
     overrides : mapping of str to object, optional
         Dotted key to value, for example ``{"workspace.points": [11, 11, 11]}``.
+    limit : bool
+        Refuse grids that would take very much time and memory.
 
     Returns
     -------
@@ -154,10 +184,12 @@ def load_study(study: str | Path, overrides: Mapping[str, object] | None = None)
     >>> study.positions.shape
     (216, 3)
     """
-    return parse_study(study_text(study, overrides), place=str(study))
+    return parse_study(study_text(study, overrides), place=str(study), limit=limit)
 
 
-def parse_study(text: str, *, place: str, overrides: Mapping[str, object] | None = None) -> Study:
+def parse_study(
+    text: str, *, place: str, overrides: Mapping[str, object] | None = None, limit: bool = True
+) -> Study:
     """Validate the text of a study file and build the study.
 
     Parameters
@@ -168,6 +200,8 @@ def parse_study(text: str, *, place: str, overrides: Mapping[str, object] | None
         Name for messages.
     overrides : mapping of str to object, optional
         Dotted key to value.
+    limit : bool
+        As for `load_study`.
 
     Returns
     -------
@@ -182,9 +216,10 @@ def parse_study(text: str, *, place: str, overrides: Mapping[str, object] | None
     if overrides:
         text = _overridden(text, overrides, place)
     content = _parsed(text, place).unwrap()
-    study = _build(content, text, f"study {place!r}")
+    folder = Path(place).parent
+    study = _build(content, text, f"study {place!r}", folder, limit=limit)
     _refuse_moves_through_anchors(study, place)
-    return replace(study, variants=tuple(_variants(study, content, place)))
+    return replace(study, variants=tuple(_variants(study, content, place, folder, limit=limit)))
 
 
 def _refuse_moves_through_anchors(study: Study, place: str) -> None:
@@ -204,7 +239,9 @@ def _refuse_moves_through_anchors(study: Study, place: str) -> None:
         raise InvalidStudy(f"study {place!r} does not hold", problems)
 
 
-def _variants(study: Study, content: dict[str, object], place: str) -> Iterator[Variant]:
+def _variants(
+    study: Study, content: dict[str, object], place: str, folder: Path, *, limit: bool
+) -> Iterator[Variant]:
     for index, one in enumerate(study.table.variant):
         where = f"study {place!r}, variant[{index}]"
         for key in one.set:
@@ -215,35 +252,40 @@ def _variants(study: Study, content: dict[str, object], place: str) -> Iterator[
                     expected=f"a key of {', '.join(VARIANT_TABLES)}, which are what a variant may change",
                 )
                 raise InvalidStudy(f"{where} does not hold", [problem])
-        changed = deepcopy({key: value for key, value in content.items() if key != "variant"})
+        changed = deepcopy({key: value for key, value in content.items() if key not in NOT_IN_VARIANTS})
         try:
             apply_overrides(changed, one.set)
         except InvalidStudy as error:
             raise InvalidStudy(f"{where} does not hold", error.problems) from error
-        yield Variant(title=one.title, keys=tuple(one.set), study=_build(changed, study.text, where))
+        yield Variant(title=one.title, keys=tuple(one.set), study=_build(changed, study.text, where, folder, limit=limit))
 
 
-def _build(content: dict[str, object], text: str, place: str) -> Study:
+def _build(content: dict[str, object], text: str, place: str, folder: Path, *, limit: bool) -> Study:
     try:
         table = StudyTable.model_validate(content)
     except ValidationError as error:
-        raise InvalidStudy(f"{place} does not hold", study_problems(error)) from error
+        raise InvalidStudy(f"{place} does not hold", study_problems(error, content)) from error
     workspace = table.workspace
-    robot, region = _robot(table.robot, workspace, place)
-    _refuse_too_many_poses(workspace, robot.cables, place)
-    return Study(
+    robot, region = build_robot(table, place, folder)
+    orientations = _orientations(workspace)
+    loads = tuple(_load(one) for one in table.payload)
+    if limit:
+        refuse_too_many_poses(table, robot.cables, len(orientations), place)
+    study = Study(
         name=table.name,
         text=text,
         table=table,
         robot=robot,
         region=region,
-        positions=position_grid(region, workspace.points),
-        orientations=np.array(workspace.orientations_rad, dtype=np.float64),
-        wrench=required_wrench(table.payload.mass_kg, table.gravity_m_per_s2),
-        motion=_motion(table.motion),
+        positions=position_grid(region, workspace.points, midpoints=workspace.grid == "midpoints"),
+        orientations=orientations,
+        loads=loads,
+        motion=_motion(table),
         tension_model=TensionModel(table.tension.model),
         checks=tuple(check for check in Check if check.value in table.checks.apply),
     )
+    refuse_what_cannot_be(study, place)
+    return study
 
 
 def starter_text(name: str) -> str:
@@ -300,52 +342,62 @@ def _overridden(text: str, overrides: Mapping[str, object], place: str) -> str:
     return tomlkit.dumps(document)
 
 
-def _refuse_too_many_poses(workspace: WorkspaceTable, cables: int, place: str) -> None:
-    poses, most = prod(workspace.points) * len(workspace.orientations_rad), MOST_CABLE_POSES // cables
-    if poses > most:
-        problem = Problem(
-            place="workspace.points",
-            value=f"{list(workspace.points)} at {len(workspace.orientations_rad)} orientations are {poses:,} poses",
-            expected=f"at most {most:,} with {cables} cables, which take some 2 GB of memory",
-            remedy="take a coarser grid, or parts of the workspace one after the other with box_m",
-        )
-        raise InvalidStudy(f"{place} does not hold", [problem])
+def _orientations(workspace: WorkspaceTable) -> FloatArray:
+    if workspace.orientation_grid_deg is not None:
+        return np.radians(np.array(list(product(*workspace.orientation_grid_deg)), dtype=np.float64))
+    return np.array(workspace.orientations_rad, dtype=np.float64)
 
 
-def _robot(robot: RobotTable, workspace: WorkspaceTable, place: str) -> tuple[CableRobot, FloatArray]:
-    box = None if workspace.box_m is None else np.array(workspace.box_m, dtype=np.float64)
-    if robot.cable is not None:
-        if box is None:
-            problem = Problem(
-                place="workspace.region",
-                value='"builder" for a robot with explicit cables',
-                expected="box_m = [[x0, x1], [y0, y1], [z0, z1]] in m",
-            )
-            raise InvalidStudy(f"{place} does not hold", [problem])
-        frame_anchors = np.array([cable.frame_anchor_m for cable in robot.cable], dtype=np.float64)
-        platform_anchors = np.array([cable.platform_anchor_m for cable in robot.cable], dtype=np.float64)
-        return CableRobot(frame_anchors=frame_anchors, platform_anchors=platform_anchors), box
-    frame, carrier = np.array(robot.frame_m), np.array(robot.carrier_m)
-    region = cpr8_region(frame, carrier)
-    if (region[:, 0] > region[:, 1]).any():
-        problem = Problem(
-            place="robot.carrier_m",
-            value=str([float(length) for length in carrier]),
-            expected=f"a carrier whose diagonal ({np.linalg.norm(carrier):.4g} m) fits into the frame, "
-            f"{[float(length) for length in frame]} m, on every axis",
-            remedy="make the carrier smaller or the frame larger",
-        )
-        raise InvalidStudy(f"{place} does not hold", [problem])
-    return cpr8(frame, carrier), region if box is None else box
-
-
-def _motion(motion: MotionTable) -> MotionSet:
-    ramps = (motion.speed_max_m_per_s, motion.acceleration_time_s, motion.deceleration_time_s)
-    if motion.set == "independent":
-        return independent_motion(*ramps, centripetal=motion.centripetal)
-    return sampled_motion(
-        *ramps,
-        velocity_intervals=motion.velocity_intervals,
-        acceleration_levels=motion.acceleration_levels,
-        centripetal=motion.centripetal,
+def _load(payload: PayloadTable) -> Load:
+    force, moment = np.array(payload.force_n), np.array(payload.moment_n_m)
+    force_reach, moment_reach = np.array(payload.force_reach_n), np.array(payload.moment_reach_n_m)
+    return Load(
+        title=payload.title,
+        body=rigid_body(payload.mass_kg, payload.centre_of_gravity_m, payload.inertia_kg_m2),
+        force_lower=force - force_reach,
+        force_upper=force + force_reach,
+        moment_lower=moment - moment_reach,
+        moment_upper=moment + moment_reach,
     )
+
+
+def _motion(table: StudyTable) -> MotionSet:
+    motion = table.motion
+    if motion.set == "rest":
+        return rest(centripetal=motion.centripetal)
+    if motion.set == "list":
+        listed = [
+            [one.velocity_m_per_s, one.acceleration_m_per_s2]
+            + [one.angular_velocity_rad_per_s, one.angular_acceleration_rad_per_s2]
+            for one in motion.case
+        ]
+        return listed_motion(np.array(listed, dtype=np.float64), centripetal=motion.centripetal)
+    ramps = (motion.speed_max_m_per_s, motion.acceleration_time_s, motion.deceleration_time_s)
+    speed, up, down = (float(value or 0.0) for value in ramps)  # the schema has seen to it that none is missing
+    if motion.set == "sampled":
+        return sampled_motion(
+            speed,
+            up,
+            down,
+            velocity_intervals=motion.velocity_intervals,
+            acceleration_levels=motion.acceleration_levels,
+            centripetal=motion.centripetal,
+        )
+    straight = motion.set == "straight"
+    return independent_motion(
+        speed,
+        up,
+        down,
+        centripetal=motion.centripetal,
+        kind=MotionKind.STRAIGHT if straight else MotionKind.INDEPENDENT,
+        velocity_shape=SetShape(motion.velocity_set),
+        acceleration_shape=SetShape.BALL if straight else _acceleration_shape(table),
+        angular_speed=motion.angular_speed_max_rad_per_s,
+    )
+
+
+def _acceleration_shape(table: StudyTable) -> SetShape:
+    """The published model goes with the published box; everything newer with a ball, unless the study says."""
+    if table.motion.acceleration_set is not None:
+        return SetShape(table.motion.acceleration_set)
+    return SetShape.BOX if TensionModel(table.tension.model).lets_cables_push else SetShape.BALL

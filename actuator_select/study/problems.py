@@ -1,7 +1,7 @@
 """From pydantic's errors to messages with key path, value, expectation, unit and remedy."""
 
 import json
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, get_args
 
 from pydantic import BaseModel, ValidationError
@@ -11,11 +11,17 @@ from actuator_select.errors import Problem, did_you_mean
 from actuator_select.study.schema import StudyTable
 
 _UNITS = {
+    "_rad_per_s2": "rad/s²",
+    "_rad_per_s": "rad/s",
     "_m_per_s2": "m/s²",
     "_m_per_s": "m/s",
+    "_kg_m2": "kg m²",
+    "_n_m": "N m",
     "_percent": "per cent, 0 to 100",
     "_rad": "rad",
+    "_deg": "deg",
     "_kg": "kg",
+    "_n": "N",
     "_m": "m",
     "_s": "s",
 }
@@ -36,13 +42,15 @@ _EXPECTED = {
 }
 
 
-def study_problems(error: ValidationError) -> list[Problem]:
+def study_problems(error: ValidationError, content: Mapping[str, object]) -> list[Problem]:
     """Translate every problem that the validation of a study found.
 
     Parameters
     ----------
     error : ValidationError
         Of `StudyTable`.
+    content : mapping
+        What was validated.
 
     Returns
     -------
@@ -50,6 +58,10 @@ def study_problems(error: ValidationError) -> list[Problem]:
         In the order of the schema.
     """
     found = error.errors(include_url=False)
+    if isinstance(content.get("payload"), dict):  # a single table, written without an index
+        for details in found:
+            if details["loc"][:2] == ("payload", 0):
+                details["loc"] = ("payload", *details["loc"][2:])
     places = [details["loc"] for details in found]
     return [
         _problem(details)

@@ -1,0 +1,231 @@
+"""From the tables of a study file to the robot."""
+
+import csv
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from math import radians
+from pathlib import Path
+
+import numpy as np
+
+from actuator_select.errors import InvalidStudy, Problem
+from actuator_select.model.arrays import FloatArray
+from actuator_select.model.families import (
+    Routing,
+    constrained_eight,
+    cpr8,
+    cpr8_region,
+    hall_region,
+    planar_four,
+    six_six,
+    suspended_eight,
+)
+from actuator_select.model.robot import CableBounds, CableRobot, Counterbalance, Freedom, Plane, RigidBody
+from actuator_select.model.tension import TensionModel
+from actuator_select.study.schema import REGIONS, CablesTable, CounterbalanceTable, RobotTable, StudyTable
+
+ANCHOR_COLUMNS = (
+    "cable",
+    "frame_x_m",
+    "frame_y_m",
+    "frame_z_m",
+    "platform_x_m",
+    "platform_y_m",
+    "platform_z_m",
+)
+
+
+def rigid_body(
+    mass: float, centre_of_gravity: Sequence[float], inertia: Sequence[Sequence[float]] | None
+) -> RigidBody:
+    """Body of a table; without an inertia a point at its centre of gravity."""
+    return RigidBody(
+        mass=mass,
+        centre_of_gravity=np.array(centre_of_gravity),
+        inertia=np.zeros((3, 3)) if inertia is None else np.array(inertia),
+    )
+
+
+def build_robot(table: StudyTable, place: str, folder: Path) -> tuple[CableRobot, FloatArray]:
+    """Build the robot of a study and the box that it works in.
+
+    Parameters
+    ----------
+    table : StudyTable
+        Validated.
+    place : str
+        Of the study, for messages.
+    folder : Path
+        Where files that the study names are looked for.
+
+    Returns
+    -------
+    tuple of CableRobot and (3, 2) array
+        With bounds, body and counterbalances; lower and upper end of x, y and z. [m]
+
+    Raises
+    ------
+    InvalidStudy
+        If the tables contradict each other.
+    """
+    described = table.robot
+    robot = _anchored(described, place, folder)
+    if described.degrees_of_freedom is not None:
+        robot = replace(robot, freedom=Freedom(described.degrees_of_freedom), plane=Plane(described.plane or "xz"))
+    robot = replace(
+        robot,
+        platform=rigid_body(described.mass_kg, described.centre_of_gravity_m, described.inertia_kg_m2),
+        bounds=_bounds(table, robot.cables, place),
+        counterbalances=robot.counterbalances + tuple(_counterbalance(one) for one in described.counterbalance),
+    )
+    return robot, _region(table, place)
+
+
+def _anchored(robot: RobotTable, place: str, folder: Path) -> CableRobot:
+    if robot.builder is not None:
+        return _BUILDERS[robot.builder](robot)
+    if robot.cable is not None:
+        return CableRobot(
+            frame_anchors=np.array([cable.frame_anchor_m for cable in robot.cable], dtype=np.float64),
+            platform_anchors=np.array([cable.platform_anchor_m for cable in robot.cable], dtype=np.float64),
+        )
+    anchors = read_anchors(folder / str(robot.anchors_csv), place)
+    return CableRobot(frame_anchors=anchors[:, :3], platform_anchors=anchors[:, 3:])
+
+
+def _lengths(robot: RobotTable, *keys: str) -> dict[str, float]:
+    return {key.removesuffix("_m"): float(getattr(robot, key)) for key in keys}
+
+
+def _planar_four(robot: RobotTable) -> CableRobot:
+    tension = robot.t5_range_n or (robot.t5_n or 0.0, robot.t5_n or 0.0)
+    return planar_four(
+        **_lengths(robot, "w_m", "h_m", "w_b_m", "h_1_m", "h_bu_m", "w_p_m", "h_p_m", "h_bp_m", "w_bp_m"),
+        routing=Routing(robot.configuration),
+        tension=tension,
+    )
+
+
+_BUILDERS: dict[str, Callable[[RobotTable], CableRobot]] = {
+    "cpr8": lambda robot: cpr8(np.array(robot.frame_m), np.array(robot.carrier_m)),
+    "planar-4": _planar_four,
+    "six-six": lambda robot: six_six(
+        **_lengths(robot, "r_base_m", "r_end_m"), gamma=radians(robot.gamma_deg or 0.0)
+    ),
+    "suspended-8": lambda robot: suspended_eight(np.array(robot.hall_m), np.array(robot.platform_m)),
+    "constrained-8": lambda robot: constrained_eight(np.array(robot.hall_m), np.array(robot.platform_m)),
+}
+
+
+def read_anchors(path: Path, place: str) -> FloatArray:
+    """Anchors of a CSV file with the columns `ANCHOR_COLUMNS`, (m, 6). [m]
+
+    Raises
+    ------
+    InvalidStudy
+        Naming every bad cell with its line.
+    """
+    try:
+        with path.open(encoding="utf-8-sig", newline="") as file:
+            rows = list(csv.DictReader(file))
+    except (OSError, UnicodeDecodeError, csv.Error) as error:
+        problem = Problem(
+            place="robot.anchors_csv", value=f"{str(path)!r} cannot be read ({error})", expected="a CSV file, UTF-8"
+        )
+        raise InvalidStudy(f"{place} does not hold", [problem]) from error
+    missing = [name for name in ANCHOR_COLUMNS if not rows or name not in rows[0]]
+    if missing:
+        problem = Problem(
+            place=f"{path.name}, line 1",
+            value=f"no column {', '.join(missing)}" if rows else "no rows",
+            expected=f"the columns {', '.join(ANCHOR_COLUMNS)} and a row per cable",
+        )
+        raise InvalidStudy(f"{place} does not hold", [problem])
+    anchors, problems = np.zeros((len(rows), 6)), []
+    for line, row in enumerate(rows):
+        for column, name in enumerate(ANCHOR_COLUMNS[1:]):
+            try:
+                anchors[line, column] = float(row[name])
+            except (TypeError, ValueError):
+                anchors[line, column] = np.nan
+            if not np.isfinite(anchors[line, column]):
+                problems.append(
+                    Problem(place=f"{path.name}, line {line + 2}, {name}", value=repr(row[name]), expected="a number [m]")
+                )
+    if problems:
+        raise InvalidStudy(f"{place} does not hold", problems)
+    return anchors
+
+
+def _counterbalance(table: CounterbalanceTable) -> Counterbalance:
+    lower, upper = table.tension_range_n or (table.tension_n or 0.0, table.tension_n or 0.0)
+    return Counterbalance(
+        frame_anchors=np.array([one.frame_anchor_m for one in table.segment]),
+        platform_anchors=np.array([one.platform_anchor_m for one in table.segment]),
+        tension_min=lower,
+        tension_max=upper,
+    )
+
+
+def _bounds(table: StudyTable, cables: int, place: str) -> CableBounds:
+    """Bounds of every cable; the least tension has no default where it decides something."""
+    stated = {
+        name: getattr(table.cables, key)
+        for name, key in zip(
+            ("tension_min", "tension_max", "length_min", "length_max", "speed_max", "axial_stiffness"),
+            CablesTable.model_fields,
+            strict=True,
+        )
+        if getattr(table.cables, key) is not None
+    }
+    problems = [
+        Problem(place=f"cables.{key}", value=f"{len(value)} values", expected=f"one number, or {cables}, one per cable")
+        for key in CablesTable.model_fields
+        if isinstance(value := getattr(table.cables, key), tuple) and len(value) != cables
+    ]
+    if table.cables.tension_min_n is None and not TensionModel(table.tension.model).lets_cables_push:
+        most = table.cables.tension_max_n
+        hint = f", here {0.01 * np.min(most):g} to {0.05 * np.min(most):g} N" if most is not None else ""
+        problems.append(
+            Problem(
+                place="cables.tension_min_n",
+                value="is missing",
+                expected="the least tension that keeps a cable taut [N]",
+                remedy=f"1 to 5 % of the greatest tension is usual{hint}; 0 only to compare with theory",
+            )
+        )
+    for lower, upper, unit in (("tension_min_n", "tension_max_n", "N"), ("length_min_m", "length_max_m", "m")):
+        low, high = getattr(table.cables, lower), getattr(table.cables, upper)
+        if low is not None and high is not None and not problems and np.any(np.array(low) > np.array(high)):
+            problems.append(
+                Problem(place=f"cables.{lower}", value=str(low), expected=f"at most {upper}, {high} [{unit}]")
+            )
+    if problems:
+        raise InvalidStudy(f"{place} does not hold", problems)
+    return CableBounds.of(cables, **{name: np.array(value) for name, value in stated.items()})
+
+
+def _region(table: StudyTable, place: str) -> FloatArray:
+    if table.workspace.box_m is not None:
+        return np.array(table.workspace.box_m, dtype=np.float64)
+    robot = table.robot
+    if robot.builder not in REGIONS:
+        problem = Problem(
+            place="workspace.region",
+            value=f'"builder" for a robot with {robot.builder or "explicit cables"}',
+            expected="box_m = [[x0, x1], [y0, y1], [z0, z1]] in m",
+        )
+        raise InvalidStudy(f"{place} does not hold", [problem])
+    frame_key, body_key = ("frame_m", "carrier_m") if robot.builder == "cpr8" else ("hall_m", "platform_m")
+    frame, body = np.array(getattr(robot, frame_key)), np.array(getattr(robot, body_key))
+    region = cpr8_region(frame, body) if robot.builder == "cpr8" else hall_region(frame, body)
+    if (region[:, 0] > region[:, 1]).any():
+        problem = Problem(
+            place=f"robot.{body_key}",
+            value=str([float(length) for length in body]),
+            expected=f"a {body_key[:-2]} whose diagonal ({np.linalg.norm(body):.4g} m) fits into the {frame_key[:-2]}, "
+            f"{[float(length) for length in frame]} m, on every axis",
+            remedy=f"make the {body_key[:-2]} smaller or the {frame_key[:-2]} larger",
+        )
+        raise InvalidStudy(f"{place} does not hold", [problem])
+    return region

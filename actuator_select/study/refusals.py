@@ -1,0 +1,116 @@
+"""Questions that cannot be posed: too large, or about a robot that cannot be."""
+
+from math import prod
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from actuator_select.errors import InvalidStudy, Problem
+from actuator_select.model.arrays import FloatArray
+from actuator_select.model.kinematics import LEAST_CABLE_LENGTH, rotation_matrix
+from actuator_select.study.schema import StudyTable
+
+if TYPE_CHECKING:
+    from actuator_select.study.loading import Study
+
+MOST_CABLE_POSES = 8_000_000  # poses times cables
+BYTES_PER_CABLE_POSE = 320  # of the demand, measured with `python -m tests.benchmarks.run`
+SECONDS_PER_CABLE_POSE = 4e-6  # of eight cables with six degrees of freedom on two cores
+
+
+def refuse_too_many_poses(table: StudyTable, cables: int, orientations: int, place: str) -> None:
+    """Refuse grids whose demand takes very much time and memory, with an estimate of both.
+
+    Raises
+    ------
+    InvalidStudy
+        Beyond `MOST_CABLE_POSES`.
+    """
+    workspace, loads = table.workspace, len(table.payload)
+    poses, most = prod(workspace.points) * orientations * loads * max(1, len(table.motion.case)), MOST_CABLE_POSES // cables
+    if poses > most:
+        work = poses * cables
+        loaded = f" with {loads} loads" if loads > 1 else ""
+        problem = Problem(
+            place="workspace.points",
+            value=f"{list(workspace.points)} at {orientations} orientations{loaded} are {poses:,} poses, some "
+            f"{_time(work * SECONDS_PER_CABLE_POSE)} and {work * BYTES_PER_CABLE_POSE / 1e9:,.1f} GB of memory",
+            expected=f"at most {most:,} with {cables} cables",
+            remedy="take a coarser grid, or parts of the workspace one after the other with box_m; "
+            "--no-limit goes ahead all the same",
+        )
+        raise InvalidStudy(f"{place} does not hold", [problem])
+
+
+def _time(seconds: float) -> str:
+    if seconds < 120.0:  # noqa: PLR2004 - two minutes
+        return f"{seconds:.0f} s"
+    minutes = seconds / 60.0
+    return f"{minutes:.0f} min" if minutes < 120.0 else f"{minutes / 60.0:,.0f} h"  # noqa: PLR2004 - two hours
+
+
+def refuse_what_cannot_be(study: "Study", place: str) -> None:
+    """Refuse a robot with the same cable twice, one without anything to hold, and poses at which a cable has no length.
+
+    Raises
+    ------
+    InvalidStudy
+        Naming cables and position.
+    """
+    problems = [*_same_cable_twice(study), *_nothing_to_hold(study), *_cables_without_length(study)]
+    if problems:
+        raise InvalidStudy(f"{place} does not hold", problems)
+
+
+def _same_cable_twice(study: "Study") -> list[Problem]:
+    robot = study.robot
+    ends = np.column_stack([robot.frame_anchors, robot.platform_anchors])
+    apart = np.abs(ends[:, None] - ends[None]).max(axis=2)
+    twins = np.argwhere(np.triu(apart < LEAST_CABLE_LENGTH, 1))
+    return [
+        Problem(
+            place=f"robot.cable[{second}]",
+            value=f"both anchors coincide with those of robot.cable[{first}]",
+            expected="cables that differ in one anchor at least [m]",
+            remedy="leave one of them out, and give the other the tension of both",
+        )
+        for first, second in twins
+    ]
+
+
+def _nothing_to_hold(study: "Study") -> list[Problem]:
+    for index, load in enumerate(study.loads):
+        pushed = np.abs([load.force_lower, load.force_upper, load.moment_lower, load.moment_upper]).any()
+        if study.robot.platform.mass + load.body.mass == 0.0 and not pushed:
+            return [
+                Problem(
+                    place=f"payload[{index}]",
+                    value="nothing is to be held",
+                    expected="mass_kg of the payload or the robot, or force_n or moment_n_m [kg, N, N m]",
+                )
+            ]
+    return []
+
+
+def _cables_without_length(study: "Study") -> list[Problem]:
+    """A grid position in an anchor; positions nearer than a stated least length are set apart instead."""
+    robot = study.robot
+    for orientation in study.orientations:
+        ends = robot.frame_anchors - robot.platform_anchors @ rotation_matrix(orientation).T
+        for cable in np.flatnonzero(robot.bounds.length_min < LEAST_CABLE_LENGTH):
+            nearest = _nearest(study.positions, ends[cable])
+            if np.linalg.norm(nearest - ends[cable]) < LEAST_CABLE_LENGTH:
+                x, y, z = nearest
+                return [
+                    Problem(
+                        place="workspace",
+                        value=f"at ({x:g}, {y:g}, {z:g}) m cable {cable + 1} has no length and so no direction",
+                        expected="positions off the anchors, or cables.length_min_m, which sets near ones apart [m]",
+                    )
+                ]
+    return []
+
+
+def _nearest(positions: FloatArray, point: FloatArray) -> FloatArray:
+    found: FloatArray = positions[((positions - point) ** 2).sum(axis=1).argmin()]
+    return found
