@@ -170,13 +170,18 @@ def minimax_by_numpy(
         for sign in (1.0, -1.0):
             with_it, against = np.maximum(sign * pulls, 0.0), np.maximum(-sign * pulls, 0.0)
             needed = sign * middle + reach + (against @ bounds.lower)[:, None]
-            own = np.where(bounds.shared, 0.0, with_it) @ np.where(bounds.shared, 0.0, bounds.upper)
+            own = _most(np.where(bounds.shared, 0.0, with_it), bounds.upper)
             excess = needed - own[:, None]
             shared = np.where(bounds.shared, with_it, 0.0)
             np.maximum(least, _level(excess, shared, bounds.upper, size), out=least)
-            has = np.where(shared > 0.0, shared * np.where(shared > 0.0, bounds.upper, 0.0), 0.0).sum(axis=1)
-            np.minimum(margin, has[:, None] - excess, out=margin)
+            np.minimum(margin, _most(shared, bounds.upper)[:, None] - excess, out=margin)
     return least, margin
+
+
+def _most(pulls: FloatArray, upper: FloatArray) -> FloatArray:
+    """Σ pulls · upper, (q,), where a pull of zero is nothing, however large its bound."""
+    most: FloatArray = (pulls * np.where(pulls > 0.0, upper, 0.0)).sum(axis=1)
+    return most
 
 
 def _level(excess: FloatArray, shared: FloatArray, caps: FloatArray, size: FloatArray) -> FloatArray:
