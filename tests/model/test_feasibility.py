@@ -1,11 +1,15 @@
 """Minimax tensions and margins against linear programs, and what has to hold for any robot."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from actuator_select.model.feasibility import Holding, hold_wrenches
 from actuator_select.model.hyperplanes import ColumnBounds, WrenchSets
-from tests.reference.linear_programs import Limits, Problem
+from tests.reference.linear_programs import Limits, Problem, random_problem
+
+ROUNDING = 1e-9  # relative, of what two ways of the same arithmetic may differ by
 
 
 def hold(problem: Problem, balls: np.ndarray | None = None) -> Holding:
@@ -24,6 +28,38 @@ def hold(problem: Problem, balls: np.ndarray | None = None) -> Holding:
 def bounds_of(problem: Problem) -> ColumnBounds:
     limits = problem.limits
     return ColumnBounds(lower=limits.lower, upper=limits.upper, shared=limits.shared)
+
+
+def drawn(count: int, **wanted: object) -> list[Problem]:
+    """Random problems with given properties: a freedom, or only full rank."""
+    found: list[Problem] = []
+    seed = 500_000
+    while len(found) < count:
+        problem = random_problem(seed)
+        seed += 1
+        full = (np.linalg.matrix_rank(problem.columns, tol=1e-6) == problem.columns.shape[1]).all()
+        if wanted.get("freedom", problem.freedom) == problem.freedom and (full or not wanted.get("full")):
+            found.append(problem)
+    return found
+
+
+@pytest.mark.parametrize("freedom", ["3T", "3R3T"])
+def test_turning_the_world_leaves_tension_margin_and_rank_unchanged(freedom: str) -> None:
+    turn, _ = np.linalg.qr(np.random.default_rng(3).normal(size=(3, 3)))
+    turn *= np.linalg.det(turn)
+    for problem in drawn(30, freedom=freedom):
+        both = turn if freedom == "3T" else np.kron(np.eye(2), turn)
+        turned = replace(
+            problem,
+            columns=both @ problem.columns,
+            shift=problem.shift @ both.T,
+            centre=problem.centre @ both.T,
+            segments=problem.segments @ both.T,
+        )
+        before, after = hold(problem), hold(turned)
+        assert np.array_equal(before.rank, after.rank)
+        assert after.minimax_tension == pytest.approx(before.minimax_tension, rel=ROUNDING)
+        assert after.margin == pytest.approx(before.margin, rel=ROUNDING, abs=1e-9)
 
 
 def test_a_counterbalance_without_an_upper_bound_holds_whatever_lies_along_it() -> None:
