@@ -50,7 +50,9 @@ class Problem:
 def _solve(columns: np.ndarray, wrench: np.ndarray, limits: Limits, *, minimise: bool) -> tuple[float, np.ndarray]:
     """Least τ, infinite if there is none, and its derivative with respect to the wrench.
 
-    Variables are the tensions and, to minimise, τ.
+    Variables are the tensions and, to minimise, τ. Presolve takes columns that are dependent but for rounding for
+    independent ones and then calls the program infeasible, so that this verdict is asked for again without it: tensions
+    that HiGHS finds prove themselves.
     """
     rows, count = columns.shape
     own = [(low, None if np.isinf(high) else high) for low, high in zip(limits.lower, limits.upper, strict=True)]
@@ -67,7 +69,7 @@ def _solve(columns: np.ndarray, wrench: np.ndarray, limits: Limits, *, minimise:
             "bounds": [*own, (least, None)],
         }
     result = linprog(**problem, method="highs", options=TOLERANCES)
-    if result.status == UNCLEAR:
+    if result.status in (INFEASIBLE, UNCLEAR):
         result = linprog(**problem, method="highs", options=TOLERANCES | {"presolve": False})
     if result.status == INFEASIBLE:
         return np.inf, np.zeros(rows)
