@@ -82,7 +82,7 @@ class WrenchSets:
         )
 
 
-def facet_normals(columns: FloatArray) -> Iterator[FloatArray]:
+def facet_normals(columns: FloatArray) -> Iterator[tuple[FloatArray, BoolArray]]:
     """Unit normals of every r - 1 of M columns, over poses at once.
 
     Parameters
@@ -95,27 +95,34 @@ def facet_normals(columns: FloatArray) -> Iterator[FloatArray]:
     (q, r) array
         One of the two normals. The columns are taken one after the other out of an orthonormal basis of what is
         orthogonal to those before, so that sets with a common beginning share its work.
+    (q,) array of bool
+        False where the columns are dependent, so that the normal is one of many and which one is left to rounding.
     """
     poses, rank, count = columns.shape
     basis = np.broadcast_to(np.eye(rank), (poses, rank, rank))
-    yield from _descend(columns, basis, 0, count)
+    yield from _descend(columns, basis, np.ones(poses, dtype=np.bool_), 0, count)
 
 
-def _descend(columns: FloatArray, basis: FloatArray, start: int, count: int) -> Iterator[FloatArray]:
+def _descend(
+    columns: FloatArray, basis: FloatArray, independent: BoolArray, start: int, count: int
+) -> Iterator[tuple[FloatArray, BoolArray]]:
     left = basis.shape[1] - 1
     if left == 0:
-        yield basis[:, 0]
+        yield basis[:, 0], independent
         return
     for column in range(start, count - left + 1):
-        yield from _descend(columns, _without(basis, columns[:, :, column]), column + 1, count)
+        vector = columns[:, :, column]
+        along = np.einsum("qdr,qr->qd", basis, vector)
+        new = np.linalg.norm(along, axis=1) > COLUMN_TOLERANCE * np.linalg.norm(vector, axis=1)
+        yield from _descend(columns, _without(basis, along), independent & new, column + 1, count)
 
 
-def _without(basis: FloatArray, vector: FloatArray) -> FloatArray:
-    """Basis (q, d, r) less the direction of `vector`, (q, r), by a Householder reflection; (q, d - 1, r).
+def _without(basis: FloatArray, along: FloatArray) -> FloatArray:
+    """Basis (q, d, r) less the direction of components `along`, (q, d), by a Householder reflection; (q, d - 1, r).
 
-    Where the vector is orthogonal to the basis, any direction may go: the first goes.
+    Where the components are zero, any direction may go: the first goes.
     """
-    mirror = np.einsum("qdr,qr->qd", basis, vector)
+    mirror = along.copy()
     mirror[:, 0] += np.copysign(np.linalg.norm(mirror, axis=1), mirror[:, 0])
     square = np.einsum("qd,qd->q", mirror, mirror)
     scale = np.divide(2.0, square, out=np.zeros_like(square), where=square > 0.0)
@@ -164,20 +171,27 @@ def minimax_by_numpy(
     shape = centre.shape[:2]
     least = np.full(shape, float(np.max(bounds.lower[bounds.shared], initial=0.0)))
     margin = np.full(shape, np.inf)
-    for normal in facet_normals(columns):
+    for normal, independent in facet_normals(columns):
         pulls = in_hyperplane(np.einsum("qr,qrm->qm", normal, columns), columns)
         middle = np.einsum("qr,qgr->qg", normal, centre)
         reach = wrenches.reach(normal, which)
         for sign in (1.0, -1.0):
             with_it, against = np.maximum(sign * pulls, 0.0), np.maximum(-sign * pulls, 0.0)
             needed = sign * middle + reach + (against @ bounds.lower)[:, None]
-            own = np.where(bounds.shared, 0.0, with_it) @ np.where(bounds.shared, 0.0, bounds.upper)
+            own = _most(np.where(bounds.shared, 0.0, with_it), bounds.upper)
             excess = needed - own[:, None]
             shared = np.where(bounds.shared, with_it, 0.0)
             np.maximum(least, _level(excess, shared, bounds.upper, size), out=least)
-            has = np.where(shared > 0.0, shared * np.where(shared > 0.0, bounds.upper, 0.0), 0.0).sum(axis=1)
-            np.minimum(margin, has[:, None] - excess, out=margin)
+            # A normal of dependent columns need not be a facet's; from outside it may lie further off than any facet.
+            slack = _most(shared, bounds.upper)[:, None] - excess
+            np.minimum(margin, np.where(independent[:, None], slack, np.inf), out=margin)
     return least, margin
+
+
+def _most(pulls: FloatArray, upper: FloatArray) -> FloatArray:
+    """Σ pulls · upper, (q,), where a pull of zero is nothing, however large its bound."""
+    most: FloatArray = (pulls * np.where(pulls > 0.0, upper, 0.0)).sum(axis=1)
+    return most
 
 
 def _level(excess: FloatArray, shared: FloatArray, caps: FloatArray, size: FloatArray) -> FloatArray:
@@ -187,7 +201,9 @@ def _level(excess: FloatArray, shared: FloatArray, caps: FloatArray, size: Float
     with np.errstate(divide="ignore", invalid="ignore"):
         while True:
             total = weights.sum(axis=-1)
-            level = np.where(remaining <= WRENCH_TOLERANCE * size, 0.0, np.where(total > 0.0, remaining / total, np.inf))
+            level = np.where(
+                remaining <= WRENCH_TOLERANCE * size, 0.0, np.where(total > 0.0, remaining / total, np.inf)
+            )
             capped = (weights > 0.0) & (caps < level[..., None] * (1.0 - WRENCH_TOLERANCE))
             if not capped.any():
                 return np.maximum(level, floor)
