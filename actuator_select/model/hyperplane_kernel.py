@@ -5,6 +5,7 @@ because the compiled code is kept in the user's cache folder.
 """
 
 import os
+from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from itertools import pairwise
 
@@ -47,7 +48,7 @@ def minimax(
     shared = np.ascontiguousarray(bounds.shared)
 
     def work(part: slice) -> None:
-        _minimax(
+        _shift(
             table[part],
             norms[part],
             *arrays,
@@ -69,16 +70,20 @@ def surely_of_full_rank(columns: FloatArray) -> BoolArray:
     """Tell the (q, n, M) matrices whose pivots leave no doubt about their full row rank, (q,)."""
     result = np.zeros(len(columns), dtype=np.bool_)
     table = np.ascontiguousarray(columns.swapaxes(1, 2))
-    _on_every_core(lambda part: _pivots(table[part], SURE_PIVOT, result[part]), len(columns))
+
+    def work(part: slice) -> None:
+        _pivots(table[part], SURE_PIVOT, result[part])
+
+    _on_every_core(work, len(columns))
     return result
 
 
-def _on_every_core(work: object, count: int) -> None:
+def _on_every_core(work: Callable[[slice], None], count: int) -> None:
     workers = os.cpu_count() or 1
     edges = np.linspace(0, count, workers + 1).astype(int)
     parts = [slice(start, stop) for start, stop in pairwise(edges) if stop > start]
     with ThreadPoolExecutor(workers) as pool:
-        list(pool.map(work, parts))  # type: ignore[arg-type]
+        list(pool.map(work, parts))
 
 
 @njit(cache=True, nogil=True)
@@ -122,7 +127,10 @@ def _pivots(table, least, sure):  # type: ignore[no-untyped-def]  # noqa: ANN001
 
 @njit(cache=True, nogil=True)
 def _reduce(basis, level, rank, vector, mirror):  # type: ignore[no-untyped-def]  # noqa: ANN001, ANN202
-    """Basis of one level less the direction of `vector`, into the next level; see `hyperplanes._without`."""
+    """Basis of one level less the direction of `vector`, into the next level; see `hyperplanes._without`.
+
+    Returns how much of the vector was left.
+    """
     size = rank - level
     norm = 0.0
     for i in range(size):
@@ -144,6 +152,7 @@ def _reduce(basis, level, rank, vector, mirror):  # type: ignore[no-untyped-def]
         row *= scale
         for i in range(1, size):
             basis[level + 1, i - 1, k] = basis[level, i, k] - mirror[i] * row
+    return norm
 
 
 @njit(cache=True, nogil=True)
@@ -173,7 +182,7 @@ def _level(excess, weights, caps, count, tolerance):  # type: ignore[no-untyped-
 
 
 @njit(cache=True, nogil=True)
-def _minimax(  # type: ignore[no-untyped-def]  # noqa: ANN202, C901, PLR0912, PLR0913, PLR0915, PLR0917 - a kernel takes plain arrays
+def _shift(  # type: ignore[no-untyped-def]  # noqa: ANN202, C901, PLR0912, PLR0913, PLR0915, PLR0917 - a kernel takes plain arrays
     table,  # noqa: ANN001
     norms,  # noqa: ANN001
     centre,  # noqa: ANN001
@@ -193,6 +202,7 @@ def _minimax(  # type: ignore[no-untyped-def]  # noqa: ANN202, C901, PLR0912, PL
     basis = np.zeros((rank, rank, rank))
     basis[0] = np.eye(rank)
     following = np.zeros(rank, dtype=np.int64)
+    independent = np.ones(rank, dtype=np.bool_)
     mirror, weights = np.empty(rank), np.empty(count)
     pulls = np.empty(count)
     sizes = np.empty(sets)
@@ -221,11 +231,13 @@ def _minimax(  # type: ignore[no-untyped-def]  # noqa: ANN202, C901, PLR0912, PL
                     level -= 1
                     continue
                 following[level] = column + 1
-                _reduce(basis, level, rank, table[pose, column], mirror)
+                left = _reduce(basis, level, rank, table[pose, column], mirror)
+                independent[level + 1] = independent[level] and left > COLUMN_TOLERANCE * norms[pose, column]
                 following[level + 1] = column + 1
                 level += 1
                 continue
             normal = basis[level, 0]
+            bounds_margin = independent[level]
             level -= 1
             for column in range(count):
                 pull = 0.0
@@ -267,7 +279,8 @@ def _minimax(  # type: ignore[no-untyped-def]  # noqa: ANN202, C901, PLR0912, PL
                                 has += pull * upper[column]
                             else:
                                 excess -= pull * upper[column]
-                    margin[pose, one] = min(margin[pose, one], has - excess)
+                    if bounds_margin:
+                        margin[pose, one] = min(margin[pose, one], has - excess)
                     if least[pose, one] < np.inf:
                         found = _level(excess, weights, upper, count, sizes[one])
                         least[pose, one] = max(least[pose, one], found)

@@ -216,6 +216,17 @@ def _line_move(
             [Problem(place=place, value="start and end are the same", expected="another position [m]")],
         )
     motion = study.table.motion
+    if motion.speed_max_m_per_s is None or motion.acceleration_time_s is None or motion.deceleration_time_s is None:
+        raise InvalidInput(
+            "the move cannot be simulated",
+            [
+                Problem(
+                    place="motion",
+                    value="has no speed profile",
+                    expected="speed_max_m_per_s, acceleration_time_s and deceleration_time_s [m/s, s, s]",
+                )
+            ],
+        )
     profile = trapezoidal_profile(
         distance, motion.speed_max_m_per_s, motion.acceleration_time_s, motion.deceleration_time_s
     )

@@ -101,7 +101,7 @@ def _planar_four(robot: RobotTable) -> CableRobot:
     tension = robot.t5_range_n or (robot.t5_n or 0.0, robot.t5_n or 0.0)
     return planar_four(
         **_lengths(robot, "w_m", "h_m", "w_b_m", "h_1_m", "h_bu_m", "w_p_m", "h_p_m", "h_bp_m", "w_bp_m"),
-        routing=Routing(robot.configuration),
+        routing=Routing(robot.configuration or "none"),
         tension=tension,
     )
 

@@ -82,10 +82,11 @@ def _nothing_to_hold(study: "Study") -> list[Problem]:
     for index, load in enumerate(study.loads):
         pushed = np.abs([load.force_lower, load.force_upper, load.moment_lower, load.moment_upper]).any()
         if study.robot.platform.mass + load.body.mass == 0.0 and not pushed:
+            given = "payload" in study.table.model_fields_set
             return [
                 Problem(
-                    place=f"payload[{index}]",
-                    value="nothing is to be held",
+                    place=f"payload[{index}]" if given else "payload",
+                    value="nothing is to be held" if given else "is missing",
                     expected="mass_kg of the payload or the robot, or force_n or moment_n_m [kg, N, N m]",
                 )
             ]
