@@ -11,6 +11,12 @@ if TYPE_CHECKING:
     from actuator_select.selection import Selection
 
 
+SAFE_RULE = (
+    "Feasible by the safe rule: one constant limit for all cables, the least that the cables' worst speed and\n"
+    "acceleration leave; sufficient, so that the true share is no smaller. Acceleration: torque for load and rotor."
+)
+
+
 @click.command("rank")
 @click.argument("study", metavar="STUDY")
 @options.set_option
@@ -65,10 +71,10 @@ def command(
 
 
 def print_ranking(selection: "Selection", *, only_meeting: bool) -> None:
-    """Print what the percentage is of, the table, and the warnings."""
-    from actuator_select.selection.wording import actuator_count, check_cell, heading, missing_notes, share
+    """Print the answer in three lines, what the percentage is of, the table, and the warnings."""
+    from actuator_select.selection.wording import actuator_count, check_cell, heading, missing_notes, share, summary
 
-    for line in heading(selection):
+    for line in [*summary(selection), "", *heading(selection)]:
         click.echo(line)
     actuators = selection.shown(only_meeting=only_meeting)
     checks = list(selection.study.checks)
@@ -93,6 +99,11 @@ def print_ranking(selection: "Selection", *, only_meeting: bool) -> None:
         click.echo(
             "Each check: positions that this limit alone allows, worst demand / limit over the whole motion set."
         )
+        if not selection.study.tension_model.lets_cables_push:
+            click.echo(SAFE_RULE)
+            exact = [f"{one.name} {one.exact_poses}" for one in actuators if one.exact_poses is not None]
+            if exact:
+                click.echo(f"By the exact joint test, positions: {', '.join(exact)}.")
     meeting, ranked = len(selection.shown(only_meeting=True)), actuator_count(len(selection.ranked))
     verb = "meets" if meeting == 1 else "meet"
     click.echo(f"{meeting} of {ranked} {verb} the requirement of {selection.required_percent:g} %.")

@@ -74,7 +74,7 @@ def torque_ratio(actuators: ActuatorSet) -> FloatArray:
 
 
 def shaft_inertia(actuators: ActuatorSet) -> FloatArray:
-    """J_r, the rotor's inertia at the shaft behind the gearbox as eq. 22 has it, the efficiency included, (C,). [kg m²]"""
+    """J_r, the rotor's inertia behind the gearbox as eq. 22 has it, the efficiency included, (C,). [kg m²]"""
     return actuators.rotor_inertia * actuators.ratio * torque_ratio(actuators)
 
 
@@ -127,7 +127,7 @@ def cable_acceleration_limit(actuators: ActuatorSet) -> FloatArray:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class VoltageLine:
-    """A limit that falls with cable speed and acceleration: force + reflected_mass · s + damping · v within ±force_limit.
+    """A limit that falls with speed and acceleration: force + reflected_mass · s + damping · v within ±force_limit.
 
     Eq. 34 put at the drum, or without damping the sum of eqs. 32 and 33.
 

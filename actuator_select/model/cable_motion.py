@@ -6,7 +6,7 @@ import numpy as np
 
 from actuator_select.model.arrays import FloatArray
 from actuator_select.model.kinematics import CableGeometry
-from actuator_select.model.motion import MotionKind, MotionSet, SetShape
+from actuator_select.model.motion import MotionKind, MotionSet, SetShape, extent
 from actuator_select.model.robot import CableRobot
 
 
@@ -76,9 +76,9 @@ def cable_motion(robot: CableRobot, geometry: CableGeometry, motion: MotionSet) 
         speeds = _largest(robot, geometry, along, about, inverse_length, motion)
     speed_in, speed_out, least_swing, most_swing = speeds
     middle = along @ motion.acceleration_centre
-    reach = _extent(along, motion.acceleration_reach, motion.acceleration_shape)
+    reach = extent(along, motion.acceleration_reach, motion.acceleration_shape)
     if motion.turns:
-        reach = reach + _extent(about, np.full(3, motion.angular_acceleration), motion.acceleration_shape)
+        reach = reach + extent(about, np.full(3, motion.angular_acceleration), motion.acceleration_shape)
         least, most = _turning(robot, geometry, motion)
         middle, reach = middle + (least + most) / 2.0, reach + (most - least) / 2.0
     return CableMotion(
@@ -104,16 +104,7 @@ def _mask(axes: tuple[int, ...]) -> FloatArray:
     return mask
 
 
-def _extent(vectors: FloatArray, size: FloatArray, shape: SetShape) -> FloatArray:
-    """Largest dot product of (q, m, 3) vectors with a box of half edges `size`, or a ball of that radius; (q, m)."""
-    if shape is SetShape.BALL:
-        result: FloatArray = np.linalg.norm(vectors, axis=-1) * size[0]
-        return result
-    result = np.abs(vectors) @ size
-    return result
-
-
-def _largest(  # noqa: PLR0913, PLR0917 - what `cable_motion` has at hand
+def _largest(
     robot: CableRobot,
     geometry: CableGeometry,
     along: FloatArray,
@@ -121,10 +112,10 @@ def _largest(  # noqa: PLR0913, PLR0917 - what `cable_motion` has at hand
     inverse_length: FloatArray,
     motion: MotionSet,
 ) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
-    speed = _extent(along, np.full(3, motion.speed), motion.velocity_shape)
+    speed = extent(along, np.full(3, motion.speed), motion.velocity_shape)
     anchor_speed = np.full_like(speed, motion.speed_bound)
     if motion.turns:
-        speed = speed + _extent(about, np.full(3, motion.angular_speed), motion.velocity_shape)
+        speed = speed + extent(about, np.full(3, motion.angular_speed), motion.velocity_shape)
         spin = motion.angular_speed * (np.sqrt(3.0) if motion.velocity_shape is SetShape.BOX else 1.0)
         anchor_speed = anchor_speed + spin * np.linalg.norm(robot.platform_anchors, axis=1)
     nothing = np.zeros_like(speed)

@@ -11,7 +11,7 @@ from actuator_select.model.dynamics import RequiredWrench, wrench_scale, wrench_
 from actuator_select.model.feasibility import hold_wrenches, structure_rank
 from actuator_select.model.hyperplanes import ColumnBounds, WrenchSets
 from actuator_select.model.kinematics import cable_geometry
-from actuator_select.model.motion import MotionKind, MotionSet, SetShape
+from actuator_select.model.motion import MotionKind, MotionSet, extent
 from actuator_select.model.robot import CableRobot
 from actuator_select.model.supports import Support, support_wrenches
 from actuator_select.model.tension import TensionModel, leaves_unbalanced, pseudo_inverse
@@ -52,7 +52,7 @@ class Demand:
     """Demand of P positions on m cables, in E cases each: every orientation, load and listed motion; Q = P·E poses.
 
     The cases of a position stand together, listed motions varying fastest, then loads, then orientations.
-    Winding in is positive: cable speed u·v, cable acceleration u·a - (‖v‖² - (u·v)²)/l for a platform that does not turn.
+    Winding in is positive: cable speed u·v, cable acceleration u·a - (‖v‖² - (u·v)²)/l where nothing turns.
 
     Attributes
     ----------
@@ -329,7 +329,9 @@ class _Work:
     def _linear(self, matrix: FloatArray, which: IntArray, support: Support) -> tuple[FloatArray, FloatArray]:
         """Tensions at rest, (q, G, m), and per unit of acceleration, (q, G, m, 3)."""
         rows = list(self._rows)
-        columns = np.array([[np.column_stack([w.static, w.per_acceleration])[rows] for w in loads] for loads in self._wrenches])
+        columns = np.array(
+            [[np.column_stack([w.static, w.per_acceleration])[rows] for w in loads] for loads in self._wrenches]
+        )
         tensions = np.einsum("qmn,qkna->qkma", matrix, columns[which])
         tensions[..., 0] -= np.einsum("qmn,qn->qm", matrix, support.constant)[:, None]
         tensions = np.repeat(tensions, self._motion.cases, axis=1)
@@ -340,8 +342,4 @@ class _Work:
         motion = self._motion
         if motion.kind is MotionKind.LISTED:
             return np.zeros(per_acceleration.shape[:-1])
-        if motion.acceleration_shape is SetShape.BALL:
-            result: FloatArray = np.linalg.norm(per_acceleration, axis=-1) * motion.acceleration_reach[0]
-            return result
-        result = np.abs(per_acceleration) @ motion.acceleration_reach
-        return result
+        return extent(per_acceleration, motion.acceleration_reach, motion.acceleration_shape)

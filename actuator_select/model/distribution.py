@@ -14,7 +14,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from actuator_select.model.arrays import BoolArray, FloatArray, IntArray
+from actuator_select.model.arrays import BoolArray, FloatArray
 from actuator_select.model.dynamics import wrench_scale
 from actuator_select.model.feasibility import hold_wrenches, structure_rank
 from actuator_select.model.hyperplanes import ColumnBounds, WrenchSets
@@ -38,8 +38,8 @@ class Distribution:
         NaN at instants that are infeasible. [N]
     minimax_tension : (S,) array
         Least uniform limit that would do; NaN under the pseudo-inverse, infinite where infeasible. [N]
-    rank : (S,) array
-        Of the structure matrix.
+    rank_deficient : (S,) array of bool
+        Where the rank of the structure matrix is less than the equations that the model balances.
     unbalanced : (S,) array of bool
         Where the pseudo-inverse leaves part of the wrench unbalanced.
     """
@@ -47,7 +47,7 @@ class Distribution:
     geometry: CableGeometry
     tension: FloatArray
     minimax_tension: FloatArray
-    rank: IntArray
+    rank_deficient: BoolArray
     unbalanced: BoolArray
 
 
@@ -88,7 +88,7 @@ def distribute(
             geometry=geometry,
             tension=np.einsum("smn,sn->sm", inverse.matrix, wanted),
             minimax_tension=np.full(len(positions), np.nan),
-            rank=inverse.rank,
+            rank_deficient=inverse.rank < len(rows),
             unbalanced=np.asarray((np.abs(left) > tolerance).any(axis=1), dtype=np.bool_),
         )
     scale = wrench_scale(robot, rows)
@@ -101,7 +101,10 @@ def _about_the_middle(
 ) -> Distribution:
     instants, rows, count = columns.shape
     bounds = robot.bounds
-    lower, upper = np.concatenate([bounds.tension_min, support.lower]), np.concatenate([bounds.tension_max, support.upper])
+    lower, upper = (
+        np.concatenate([bounds.tension_min, support.lower]),
+        np.concatenate([bounds.tension_max, support.upper]),
+    )
     shared = np.arange(count) < robot.cables
     empty = np.zeros((instants, 1, 0, rows))
     holding = hold_wrenches(
@@ -123,7 +126,7 @@ def _about_the_middle(
         geometry=geometry,
         tension=tension[:, : robot.cables],
         minimax_tension=least,
-        rank=rank,
+        rank_deficient=rank < rows,
         unbalanced=np.zeros(instants, dtype=np.bool_),
     )
 

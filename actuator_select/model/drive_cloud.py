@@ -7,8 +7,8 @@ import numpy as np
 
 from actuator_select.model.actuation import torque_ratio
 from actuator_select.model.arrays import FloatArray, IntArray
-from actuator_select.model.components import ActuatorSet
 from actuator_select.model.cable_motion import swing_scale
+from actuator_select.model.components import ActuatorSet
 from actuator_select.model.demand import Demand
 from actuator_select.model.motion import MotionKind, SetShape
 

@@ -42,9 +42,10 @@ class CheckCount:
     positions : (C,) array
         Positions at which this limit alone holds at every orientation; -1 where not evaluated.
     worst_utilisation : (C,) array
-        Largest demand over limit; NaN where not evaluated.
+        Largest demand over limit at the positions that some drive could serve; infinite if there are none, NaN where
+        not evaluated.
     worst_position : (C,) array
-        Index of the position where that is; -1 where not evaluated.
+        Index of the position where that is; -1 where there is none.
     """
 
     evaluated: BoolArray
@@ -196,12 +197,14 @@ class _ScalarCheck:
         evaluated = ~np.isnan(self.limit)
         finite = np.sort(self.demand[np.isfinite(self.demand)])
         positions = np.searchsorted(finite, self.limit * (1.0 + ROUNDING), side="right")
-        worst = int(self.demand.argmax())
+        reachable = np.where(np.isfinite(self.demand), self.demand, -np.inf)
+        worst = int(reachable.argmax())
+        found = bool(np.isfinite(reachable[worst]))
         return CheckCount(
             evaluated=evaluated,
             positions=np.where(evaluated, positions, -1),
             worst_utilisation=utilisation(self.demand[worst], self.limit),
-            worst_position=np.where(evaluated, worst, -1),
+            worst_position=np.where(evaluated & found, worst, -1),
         )
 
 

@@ -66,7 +66,7 @@ def cpr8_region(frame: FloatArray, carrier: FloatArray) -> FloatArray:
 
 
 class Routing(StrEnum):
-    """How the counterbalance rope of the planar four-cable robot runs (figure 2 in the paper cited in `planar_four`)."""
+    """How the counterbalance rope of `planar_four` runs, figure 2 in the paper cited there."""
 
     NONE = "none"
     A = "a"

@@ -73,7 +73,9 @@ def hold_wrenches(
     minimax, surely_of_full_rank = _tools(work)
     step = max(1, CELLS_AT_ONCE // max(1, rows * count))
     for start in range(0, poses, step):
-        _hold_chunk(columns, wrenches, which, shift, bounds, minimax, surely_of_full_rank, holding, slice(start, start + step))
+        _hold_chunk(
+            columns, wrenches, which, shift, bounds, minimax, surely_of_full_rank, holding, slice(start, start + step)
+        )
     return holding
 
 

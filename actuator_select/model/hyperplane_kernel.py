@@ -44,14 +44,18 @@ def minimax(
     # One contiguous column after the other.
     table = np.ascontiguousarray(columns.swapaxes(1, 2))
     norms = np.linalg.norm(table, axis=2)
-    arrays = [np.ascontiguousarray(one) for one in (wrenches.centre, wrenches.segments, wrenches.balls)]
+    centre, segments, balls = (
+        np.ascontiguousarray(one) for one in (wrenches.centre, wrenches.segments, wrenches.balls)
+    )
     shared = np.ascontiguousarray(bounds.shared)
 
     def work(part: slice) -> None:
         _shift(
             table[part],
             norms[part],
-            *arrays,
+            centre,
+            segments,
+            balls,
             magnitude,
             np.ascontiguousarray(which[part]),
             np.ascontiguousarray(shift[part]),
@@ -87,7 +91,7 @@ def _on_every_core(work: Callable[[slice], None], count: int) -> None:
 
 
 @njit(cache=True, nogil=True)
-def _pivots(table, least, sure):  # type: ignore[no-untyped-def]  # noqa: ANN001, ANN202
+def _pivots(table, least, sure):  # type: ignore[no-untyped-def]  # noqa: ANN001, ANN202, C901, PLR0912
     """Column-pivoted Gram-Schmidt; `sure` where the last pivot is not small beside the first."""
     poses, count, rank = table.shape
     left = np.empty((count, rank))
@@ -156,7 +160,7 @@ def _reduce(basis, level, rank, vector, mirror):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True, nogil=True)
-def _level(excess, weights, caps, count, tolerance):  # type: ignore[no-untyped-def]  # noqa: ANN001, ANN202
+def _level(excess, weights, caps, count, tolerance):  # type: ignore[no-untyped-def]  # noqa: ANN001, ANN202, C901
     """Least τ with Σ weights · min(τ, caps) ≥ excess; see `hyperplanes._level`."""
     floor = 0.0
     while True:

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from actuator_select.model.arrays import FloatArray
+from actuator_select.model.arrays import BoolArray, FloatArray
 from actuator_select.model.robot import CableRobot
 
 LEAST_CABLE_LENGTH = 1e-9  # m; a shorter cable has no direction that rounding leaves
@@ -119,6 +119,31 @@ def segment_geometry(
     moments = np.cross(arms, directions)
     structure_matrix = np.concatenate([directions, moments], axis=-1).swapaxes(-1, -2)
     return CableGeometry(lengths=lengths, directions=directions, arms=arms, structure_matrix=structure_matrix)
+
+
+def too_near(robot: CableRobot, positions: FloatArray, orientations: FloatArray) -> BoolArray:
+    """Tell the positions at which some cable is shorter than its least length at some orientation.
+
+    Parameters
+    ----------
+    robot : CableRobot
+        With `length_min` of m cables.
+    positions : (P, 3) array
+        [m]
+    orientations : (O, 3) array
+        Angles ψ, θ, φ. [rad]
+
+    Returns
+    -------
+    (P,) array of bool
+        All False where no least length is stated.
+    """
+    near = np.zeros(len(positions), dtype=np.bool_)
+    for cable in np.flatnonzero(robot.bounds.length_min > 0.0):
+        for rotation in rotation_matrix(orientations):
+            end = robot.frame_anchors[cable] - rotation @ robot.platform_anchors[cable]
+            near |= np.linalg.norm(positions - end, axis=1) < robot.bounds.length_min[cable]
+    return near
 
 
 def least_cable_lengths(robot: CableRobot, start: FloatArray, stop: FloatArray, orientation: FloatArray) -> FloatArray:

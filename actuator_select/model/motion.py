@@ -27,6 +27,13 @@ class SetShape(StrEnum):
     BOX = "box"
 
 
+def extent(vectors: FloatArray, size: FloatArray, shape: SetShape) -> FloatArray:
+    """Largest dot product of (..., 3) vectors with a box of half edges `size`, (3,), or a ball of radius `size[0]`."""
+    if shape is SetShape.BALL:
+        return np.asarray(np.linalg.norm(vectors, axis=-1) * size[0], dtype=np.float64)
+    return np.asarray(np.abs(vectors) @ size, dtype=np.float64)
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class MotionSet:
     """Velocities and accelerations that have to be possible at every pose.

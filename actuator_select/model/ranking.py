@@ -39,7 +39,7 @@ def required_positions(total: int, required_percent: float) -> int:
     return max(1, ceil(total * required_percent / 100.0 - PERCENT_TOLERANCE))
 
 
-def verdicts(evaluation: Evaluation, required_percent: float) -> list[Verdict]:
+def verdicts(evaluation: Evaluation, required_percent: float, served: list[bool | None] | None = None) -> list[Verdict]:
     """Judge every actuator.
 
     An actuator with a check that could not be evaluated is at best undecided; it fails only if the checks that could
@@ -51,6 +51,8 @@ def verdicts(evaluation: Evaluation, required_percent: float) -> list[Verdict]:
         Of C actuators.
     required_percent : float
         Share of the positions that has to be served.
+    served : list of bool or None, optional
+        For every actuator, whether it serves all places that have to be served; None where that is unknown.
 
     Returns
     -------
@@ -59,9 +61,14 @@ def verdicts(evaluation: Evaluation, required_percent: float) -> list[Verdict]:
     """
     enough = meets_share(evaluation.positions, len(evaluation.demand.positions), required_percent)
     unknown = not_evaluated(evaluation) > 0
+    places: list[bool | None] = [True] * len(enough) if served is None else served
     return [
-        Verdict.FAILS if not reached else Verdict.UNDECIDED if open_check else Verdict.MEETS
-        for reached, open_check in zip(enough, unknown, strict=True)
+        Verdict.FAILS
+        if not reached or place is False
+        else Verdict.UNDECIDED
+        if open_check or place is None
+        else Verdict.MEETS
+        for reached, open_check, place in zip(enough, unknown, places, strict=True)
     ]
 
 
@@ -80,15 +87,15 @@ def worst_utilisation(evaluation: Evaluation) -> FloatArray:
     return worst
 
 
-def ranking_order(evaluation: Evaluation, required_percent: float) -> IntArray:
+def ranking_order(evaluation: Evaluation, verdict: list[Verdict]) -> IntArray:
     """Order by verdict, feasible share, fewest checks not evaluated, smallest worst utilisation.
 
     Parameters
     ----------
     evaluation : Evaluation
         Of C actuators.
-    required_percent : float
-        Share of the positions that has to be served.
+    verdict : list of Verdict
+        As `verdicts` gives them.
 
     Returns
     -------
@@ -96,8 +103,8 @@ def ranking_order(evaluation: Evaluation, required_percent: float) -> IntArray:
         Indices, best first; equal actuators keep their order.
     """
     place = {verdict: index for index, verdict in enumerate(Verdict)}
-    verdict = np.array([place[one] for one in verdicts(evaluation, required_percent)], dtype=np.int64)
+    standing = np.array([place[one] for one in verdict], dtype=np.int64)
     order: IntArray = np.lexsort(
-        (worst_utilisation(evaluation), not_evaluated(evaluation), -evaluation.positions, verdict)
+        (worst_utilisation(evaluation), not_evaluated(evaluation), -evaluation.positions, standing)
     )
     return order

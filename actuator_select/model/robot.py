@@ -94,7 +94,9 @@ class CableBounds:
             "axial_stiffness": np.inf,
         }
         values = default | bounds
-        return cls(**{name: np.broadcast_to(np.asarray(value, np.float64), (cables,)) for name, value in values.items()})
+        return cls(
+            **{name: np.broadcast_to(np.asarray(value, np.float64), (cables,)) for name, value in values.items()}
+        )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -255,7 +255,7 @@ class DrivenMove:
             speed=shaft_speed,
             acceleration=shaft_acceleration,
             torque=torque,
-            rank_deficient=shared.rank < self.robot.degrees_of_freedom,
+            rank_deficient=shared.rank_deficient,
             unbalanced=shared.unbalanced,
             infeasible=np.isinf(shared.minimax_tension),
             voltage=shaft.inertia_gain * shaft_acceleration

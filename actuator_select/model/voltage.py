@@ -13,7 +13,7 @@ from actuator_select.model.actuation import VoltageLine, utilisation
 from actuator_select.model.arrays import FloatArray, IntArray
 from actuator_select.model.cable_motion import swing_scale
 from actuator_select.model.demand import Demand
-from actuator_select.model.motion import MotionKind, SetShape
+from actuator_select.model.motion import MotionKind, SetShape, extent
 
 CELLS_AT_ONCE = 1 << 17  # (actuator, position, cable, sample) cells in one chunk: its scratch stays in the cache
 
@@ -78,8 +78,7 @@ class VoltageDemand:
         middle = self.force[chunk] + mass * self.acceleration[chunk]
         extra = self.force_extra[chunk] + mass * self.acceleration_extra[chunk]
         if self.straight:
-            worst: FloatArray = (self._along_lines(line, middle, chunk) + extra).max(axis=-1)
-            return worst
+            return np.asarray((self._along_lines(line, middle, chunk) + extra).max(axis=-1), dtype=np.float64)
         reach = np.zeros_like(middle)
         for axis in range(3):
             change = self.force_reach[chunk, :, axis] + mass * self.acceleration_reach[chunk, :, axis]
@@ -87,8 +86,7 @@ class VoltageDemand:
         if self.shape is SetShape.BALL:
             reach = np.sqrt(reach)
         up, down = self._velocity_terms(line, chunk)
-        worst = (np.maximum(up + middle, down - middle) + reach + extra).max(axis=-1)
-        return worst
+        return np.asarray((np.maximum(up + middle, down - middle) + reach + extra).max(axis=-1), dtype=np.float64)
 
     def _along_lines(self, line: VoltageLine, middle: FloatArray, chunk: slice) -> FloatArray:
         """Greatest magnitude where v = V e and a = ±A e for any direction e; the swing term at its worst, (C, p, k)."""
@@ -224,11 +222,7 @@ def _reach_of_acceleration(demand: Demand) -> FloatArray:
     motion = demand.motion
     if motion.kind is MotionKind.LISTED:
         return np.zeros_like(demand.lengths)
-    if motion.acceleration_shape is SetShape.BALL:
-        result: FloatArray = np.linalg.norm(demand.directions, axis=-1) * motion.acceleration_reach[0]
-        return result
-    result = np.abs(demand.directions) @ motion.acceleration_reach
-    return result
+    return extent(demand.directions, motion.acceleration_reach, motion.acceleration_shape)
 
 
 def _swing(demand: Demand) -> tuple[FloatArray, FloatArray, FloatArray]:

@@ -92,7 +92,8 @@ class VoltageCounter:
     def worst_utilisation(self) -> FloatArray:
         """Largest |u|/U, (C,)."""
         result = np.full(self._actuators, np.nan)
-        result[self._known] = utilisation(self._tally.worst, self._line.force_limit)
+        worst = np.where(np.isneginf(self._tally.worst), np.inf, self._tally.worst)  # no position could be served
+        result[self._known] = utilisation(worst, self._line.force_limit)
         return result
 
     @property
@@ -106,7 +107,7 @@ def _median_index(values: FloatArray) -> int:
 
 
 def _kernel(rows: VoltageDemand, actuators: int) -> Kernel:
-    """Choose the compiled counter where it pays and exists; it knows boxes of accelerations, and no samples or lines."""
+    """Choose the compiled counter where it pays and exists; it knows boxes of accelerations, no samples, no lines."""
     coupled = rows.shape is SetShape.BALL and bool(rows.force_reach.any())
     if rows.directions is not None or coupled or actuators * rows.force.size < KERNEL_PAYS_FROM:
         return count_with_numpy
@@ -135,6 +136,7 @@ def count_with_numpy(rows: VoltageDemand, line: VoltageLine, passes: BoolArray, 
     holds = (demand <= tally.limit[:, None]) & np.isfinite(demand)
     tally.alone[:] += holds.sum(axis=1)
     passes &= holds
+    demand = np.where(np.isfinite(demand), demand, -np.inf)  # what no drive could serve is nobody's worst
     where = demand.argmax(axis=1)
     largest = demand[np.arange(len(demand)), where]
     moved = largest > tally.worst

@@ -145,7 +145,7 @@ def _tabulate(table, knots, speed, upper, lower):  # type: ignore[no-untyped-def
                 reach = (
                     abs(row[2, cable] + mass * row[5, cable])
                     + abs(row[3, cable] + mass * row[6, cable])
-                        + abs(row[4, cable] + mass * row[7, cable])
+                    + abs(row[4, cable] + mass * row[7, cable])
                     + row[12, cable]
                     + mass * row[13, cable]
                 )
@@ -204,7 +204,7 @@ def _count(  # type: ignore[no-untyped-def]  # noqa: ANN202, C901, PLR0913, PLR0
                         passes[actuator, position] = False
                         continue
                 demand = _worst(table[position], speed, mass, damping)
-                if demand > largest:
+                if largest < demand < np.inf:  # what no drive could serve is nobody's worst
                     largest = demand
                     where[actuator] = position
                 if demand <= limit and demand < np.inf:

@@ -1,6 +1,7 @@
 """What users do: evaluate, rank and simulate actuators, and check the catalogue's figures."""
 
 from actuator_select.model.exceedance import Exceedance
+from actuator_select.selection.cautions import Warned
 from actuator_select.selection.plausibility import Finding, check_catalogue, check_rows
 from actuator_select.selection.records import selection_record
 from actuator_select.selection.selection import (
@@ -8,7 +9,6 @@ from actuator_select.selection.selection import (
     RankedActuator,
     Selection,
     StudyEvaluation,
-    Warned,
     evaluate,
     rank,
 )

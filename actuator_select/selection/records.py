@@ -21,8 +21,8 @@ def selection_record(selection: Selection, *, only_meeting: bool = False) -> dic
     Returns
     -------
     dict
-        ``study``, ``tension_model``, ``motion_set``, ``catalogue``, ``poses``, ``required_percent``, ``warnings`` and
-        ``actuators``, best first.
+        ``study``, ``tension_model``, ``motion_set``, ``catalogue``, ``poses``, ``attainable_percent``,
+        ``required_percent``, ``warnings``, ``actuators`` (best first) and more.
     """
     study = selection.study
     return {
@@ -31,6 +31,10 @@ def selection_record(selection: Selection, *, only_meeting: bool = False) -> dic
         "motion_set": study.motion.kind.value,
         "catalogue": {"fingerprint": selection.fingerprint, "where": selection.where},
         "poses": selection.poses,
+        "too_near_poses": len(study.positions) - selection.poses,
+        "attainable_poses": selection.attainable_poses,
+        "attainable_percent": round(selection.attainable_percent, 2),
+        "robot_falls_short": selection.robot_falls_short,
         "required_percent": selection.required_percent,
         "warnings": [{"code": one.code, "poses": one.poses, "text": one.text} for one in selection.warnings],
         "actuators": [
@@ -46,6 +50,8 @@ def _actuator_record(actuator: RankedActuator, poses: int) -> dict[str, Any]:
         "feasible_percent": round(actuator.feasible_percent, 2),
         "feasible_poses": actuator.feasible_poses,
         "feasible_is_upper_bound": actuator.is_upper_bound,
+        "feasible_poses_exact": actuator.exact_poses,
+        "must_serve_missed": list(actuator.missed),
         "poses": poses,
         "verdict": actuator.verdict.value,
         "checks": {check.value: _check_record(verdict) for check, verdict in actuator.checks.items()},

@@ -8,33 +8,17 @@ import numpy as np
 from actuator_select.database import Catalogue
 from actuator_select.errors import InvalidInput, Problem
 from actuator_select.model.actuation import Check
-from actuator_select.model.demand import Demand, Progress, compute_demand
+from actuator_select.model.arrays import FloatArray, IntArray
+from actuator_select.model.demand import Progress
 from actuator_select.model.evaluation import Evaluation, evaluate_actuators, missing_figures
 from actuator_select.model.ranking import State, Verdict, meets_share, ranking_order, verdicts
 from actuator_select.selection.candidates import Candidates, find_candidates
+from actuator_select.selection.cautions import Warned, demand_warnings
+from actuator_select.selection.places import EXACT, counted_positions, exact_counts, missed_places, study_demand
 from actuator_select.study import Study
 
 if TYPE_CHECKING:
     import pandas as pd
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Warned:
-    """Something that the percentages rest on and a real robot cannot do.
-
-    Attributes
-    ----------
-    code : str
-        Stable name.
-    poses : int
-        Positions where it happens, at one listed orientation or more.
-    text : str
-        For people.
-    """
-
-    code: str
-    poses: int
-    text: str
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -82,11 +66,16 @@ class RankedActuator:
     verdict : Verdict
         Against the requirement.
     feasible_poses : int
-        Positions at which every check holds at every orientation; where a check was not evaluated, at most so many.
+        Positions at which every check holds at every orientation and with every load; where a check was not
+        evaluated, at most so many. Under a model with bounded tensions by the safe rule: at least so many.
     feasible_percent : float
         The same as a share of all positions.
     checks : dict of Check to CheckVerdict
         All four; `NOT_APPLICABLE` where the study does not ask for a check.
+    exact_poses : int or None
+        Positions by the exact joint test; None where it was not made.
+    missed : tuple of str
+        Places of `requirement.must_serve` that are not served, or not known to be.
     """
 
     index: int
@@ -96,6 +85,8 @@ class RankedActuator:
     feasible_poses: int
     feasible_percent: float
     checks: dict[Check, CheckVerdict]
+    exact_poses: int | None = None
+    missed: tuple[str, ...] = ()
 
     @property
     def is_upper_bound(self) -> bool:
@@ -125,11 +116,25 @@ class StudyEvaluation:
         Who was asked.
     evaluation : Evaluation
         Arrays: the demand of every pose and cable, the counts of every actuator.
+    counted : (n,) array
+        Indices of the study's positions that count: all but those too near to an anchor.
     """
 
     study: Study
     candidates: Candidates
     evaluation: Evaluation
+    counted: IntArray
+
+    @property
+    def poses(self) -> int:
+        """Positions that count."""
+        return len(self.counted)
+
+    def spread(self, values: FloatArray, fill: float = np.nan) -> FloatArray:
+        """Values of the positions that count, (n,), at all positions of the study, (P,); `fill` elsewhere."""
+        result = np.full(len(self.study.positions), fill)
+        result[self.counted] = values
+        return result
 
     def frame(self) -> "pd.DataFrame":
         """Counts as a table: one row per actuator, positions in total, jointly feasible, and per check."""
@@ -137,7 +142,7 @@ class StudyEvaluation:
 
         columns: dict[str, object] = {
             "name": self.candidates.names,
-            "poses": len(self.study.positions),
+            "poses": self.poses,
             "feasible_poses": self.evaluation.positions,
         }
         for check, count in self.evaluation.checks.items():
@@ -180,8 +185,23 @@ class Selection:
 
     @property
     def poses(self) -> int:
-        """Positions in total."""
-        return len(self.study.positions)
+        """Positions that count."""
+        return self.result.poses
+
+    @property
+    def attainable_poses(self) -> int:
+        """Positions that a drive without limits could serve."""
+        return int(self.result.evaluation.demand.attainable_positions.sum())
+
+    @property
+    def attainable_percent(self) -> float:
+        """The same as a share of the positions that count."""
+        return 100.0 * self.attainable_poses / self.poses
+
+    @property
+    def robot_falls_short(self) -> bool:
+        """Whether no drive at all could meet the requirement, so that the robot has to change."""
+        return not meets_share(np.array(self.attainable_poses), self.poses, self.required_percent)
 
     def shown(self, *, only_meeting: bool = False) -> tuple[RankedActuator, ...]:
         """Actuators, best first; only those that meet the requirement if so asked."""
@@ -233,22 +253,10 @@ def evaluate(
 
 def evaluate_candidates(study: Study, candidates: Candidates, progress: Progress | None = None) -> StudyEvaluation:
     """As `evaluate`, for candidates at hand."""
-    demand = study_demand(study, progress)
+    counted = counted_positions(study)
+    demand = study_demand(study, study.positions[counted], progress)
     evaluation = evaluate_actuators(demand, candidates.actuators, study.checks, progress)
-    return StudyEvaluation(study=study, candidates=candidates, evaluation=evaluation)
-
-
-def study_demand(study: Study, progress: Progress | None = None) -> Demand:
-    """What a study asks, whatever drives the robot."""
-    return compute_demand(
-        study.robot,
-        study.positions,
-        study.orientations,
-        study.wrenches,
-        study.motion,
-        tension_model=study.tension_model,
-        progress=progress,
-    )
+    return StudyEvaluation(study=study, candidates=candidates, evaluation=evaluation, counted=counted)
 
 
 def rank(
@@ -312,9 +320,13 @@ def rank_result(result: StudyEvaluation, *, require: float | None, fingerprint: 
         problem = Problem(place="--require", value=f"{required:g}", expected="a number from 0 to 100 [%]")
         raise InvalidInput("the requirement does not hold", [problem])
     evaluation = result.evaluation
-    verdict = verdicts(evaluation, required)
-    missing = {check: missing_figures(evaluation.actuators, check, result.study.tension_model) for check in evaluation.checks}
-    total = len(result.study.positions)
+    missed = missed_places(result.study, evaluation.actuators)
+    verdict = verdicts(evaluation, required, [one.served for one in missed])
+    order = ranking_order(evaluation, verdict)
+    missing = {
+        check: missing_figures(evaluation.actuators, check, result.study.tension_model) for check in evaluation.checks
+    }
+    exact = exact_counts(result.study, evaluation, order[:EXACT])
     ranked = tuple(
         RankedActuator(
             index=int(index),
@@ -322,16 +334,18 @@ def rank_result(result: StudyEvaluation, *, require: float | None, fingerprint: 
             name=result.candidates.names[index],
             verdict=verdict[index],
             feasible_poses=int(evaluation.positions[index]),
-            feasible_percent=100.0 * float(evaluation.positions[index]) / total,
+            feasible_percent=100.0 * float(evaluation.positions[index]) / result.poses,
             checks={check: _check_verdict(result, check, int(index), required, missing) for check in Check},
+            exact_poses=exact.get(int(index)),
+            missed=missed[index].titles,
         )
-        for index in ranking_order(evaluation, required)
+        for index in order
     )
     return Selection(
         result=result,
         required_percent=required,
         ranked=ranked,
-        warnings=demand_warnings(evaluation.demand),
+        warnings=demand_warnings(evaluation.demand, apart=len(result.study.positions) - result.poses),
         fingerprint=fingerprint,
         where=where,
     )
@@ -346,60 +360,14 @@ def _check_verdict(
     if not count.evaluated[index]:
         return CheckVerdict(state=State.NOT_EVALUATED, missing=missing[check][index])
     positions = count.positions[index]
-    enough = bool(meets_share(positions, len(result.study.positions), required))
-    x, y, z = (float(value) for value in result.study.positions[count.worst_position[index]])
+    enough = bool(meets_share(positions, result.poses, required))
+    where = None
+    if count.worst_position[index] >= 0:
+        x, y, z = (float(value) for value in result.evaluation.demand.positions[count.worst_position[index]])
+        where = (x, y, z)
     return CheckVerdict(
         state=State.PASSED if enough else State.FAILED,
         poses=int(positions),
         worst_utilisation=float(count.worst_utilisation[index]),
-        worst_position=(x, y, z),
-    )
-
-
-def demand_warnings(demand: Demand) -> tuple[Warned, ...]:
-    """What a demand rests on that real cables cannot do, with the positions concerned.
-
-    Parameters
-    ----------
-    demand : Demand
-        Under the pseudo-inverse tension model.
-
-    Returns
-    -------
-    tuple of Warned
-        Only what happens somewhere.
-    """
-    total = len(demand.positions)
-    found = (
-        (
-            "rank_deficient",
-            demand.rank_deficient,
-            "the structure matrix is short of rank: no tensions can balance every force and moment on the platform",
-        ),
-        (
-            "negative_tension_at_rest",
-            demand.negative_at_rest,
-            "a cable would have to push while the platform stands still; real cables cannot push",
-        ),
-        (
-            "negative_tension_in_motion",
-            demand.negative_in_motion,
-            "a cable would have to push somewhere in the motion set; real cables cannot push",
-        ),
-        (
-            "unbalanced_wrench",
-            demand.unbalanced,
-            "the pseudo-inverse leaves part of the required wrench unbalanced somewhere in the motion set",
-        ),
-        (
-            "zero_length_cable",
-            np.any(demand.lengths <= 0.0, axis=1),
-            "a cable has no length and so no direction; such positions count as not served",
-        ),
-    )
-    counts = ((code, demand.positions_with(poses), reason) for code, poses, reason in found)
-    return tuple(
-        Warned(code=code, poses=count, text=f"At {count} of {total} positions {reason}.")
-        for code, count, reason in counts
-        if count
+        worst_position=where,
     )

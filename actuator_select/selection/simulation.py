@@ -72,13 +72,16 @@ class Simulation:
     @property
     def missing(self) -> dict[Check, tuple[str, ...]]:
         """Checks that could not be evaluated, with the figures that they lack."""
-        lacking = {check: missing_figures(self.candidates.actuators, check, self.study.tension_model)[0] for check in Check}
+        lacking = {
+            check: missing_figures(self.candidates.actuators, check, self.study.tension_model)[0] for check in Check
+        }
         return {check: figures for check, figures in lacking.items() if figures}
 
     @property
     def glossed_over(self) -> list[str]:
         """What the tension model glosses over during the move, for people."""
         shares = (
+            (self.history.infeasible, "no tensions within their bounds hold the platform, and none are shown"),
             (self.history.rank_deficient, "the structure matrix is short of rank"),
             (self.history.unbalanced, "the pseudo-inverse leaves part of the required wrench unbalanced"),
         )
@@ -90,7 +93,7 @@ class Simulation:
     def pushing(self) -> list[int]:
         """Cables, from 1, whose tension becomes negative."""
         tension = self.history.tension
-        tolerance = NEGATIVE_TENSION_TOLERANCE * np.abs(tension).max()
+        tolerance = NEGATIVE_TENSION_TOLERANCE * np.nanmax(np.abs(tension), initial=0.0)
         return [int(cable) + 1 for cable in np.flatnonzero((tension < -tolerance).any(axis=0))]
 
     def frame(self) -> "pd.DataFrame":

@@ -1,15 +1,18 @@
 """Results in words, the same on the command line and in reports."""
 
 from collections.abc import Sequence
-from math import isinf
+from math import inf, isinf
 
+from actuator_select.model.arrays import FloatArray
 from actuator_select.model.exceedance import Exceedance
-from actuator_select.model.motion import MotionKind
-from actuator_select.model.ranking import State
+from actuator_select.model.motion import MotionKind, SetShape
+from actuator_select.model.ranking import State, Verdict
+from actuator_select.model.tension import TensionModel
 from actuator_select.selection.selection import CheckVerdict, RankedActuator, Selection
 from actuator_select.selection.simulation import UNITS, Simulation
 from actuator_select.study import Study
 
+MOST_LISTED = 6  # orientations that are listed one by one
 LARGE = 1e4  # utilisations from here on are written with three digits
 
 FIGURE_NAMES = {
@@ -103,30 +106,150 @@ def basis(study: Study) -> dict[str, str]:
     box = ", ".join(f"{axis} {low:.3f} to {high:.3f} m" for axis, (low, high) in zip("xyz", study.region, strict=True))
     points = study.table.workspace.points
     grid = " × ".join(str(count) for count in points)
-    orientations = "; ".join(f"({', '.join(f'{angle:g}' for angle in one)})" for one in study.orientations)
-    several = ", at all of which a position has to hold" if len(study.orientations) > 1 else ""
-    return {
+    placed = "cell midpoints" if study.table.workspace.grid == "midpoints" else "both ends included"
+    items = {
         "box": box,
-        "grid": f"{grid} positions, both ends included{'; a single point in the middle' if 1 in points else ''}",
-        "orientations": f"(ψ, θ, φ) = {orientations} rad{several}",
-        "tensions": f"{study.tension_model.value} (published model: cables may push)",
+        "grid": f"{grid} positions, {placed}{'; a single point in the middle' if 1 in points else ''}",
+        "orientations": orientation_words(study),
+        "load": load_words(study),
+        "tensions": tension_words(study),
         "motion set": motion_words(study),
         "checks": ", ".join(check.value for check in study.checks),
     }
+    if study.table.candidates.kind == "none":
+        del items["checks"]
+    return items
+
+
+def orientation_words(study: Study) -> str:
+    """Orientations of every position."""
+    if len(study.orientations) > MOST_LISTED:
+        spans = ", ".join(
+            f"{angle} {low:g} to {high:g}"
+            for angle, low, high in zip(
+                "ψθφ", study.orientations.min(axis=0), study.orientations.max(axis=0), strict=True
+            )
+        )
+        return f"{len(study.orientations)} of {spans} rad, at all of which a position has to hold"
+    listed = "; ".join(f"({', '.join(f'{angle:g}' for angle in one)})" for one in study.orientations)
+    several = ", at all of which a position has to hold" if len(study.orientations) > 1 else ""
+    return f"(ψ, θ, φ) = {listed} rad{several}"
+
+
+def load_words(study: Study) -> str:
+    """What is held: the platform, the payloads, external forces, counterbalances."""
+    own = study.robot.platform.mass
+    loads = []
+    for load in study.loads:
+        parts = [f"{load.body.mass:g} kg"] if load.body.mass or not own else []
+        for name, unit, low, high in (
+            ("force", "N", load.force_lower, load.force_upper),
+            ("moment", "N m", load.moment_lower, load.moment_upper),
+        ):
+            if low.any() or high.any():
+                middle, reach = (low + high) / 2.0, (high - low) / 2.0
+                around = f" ± ({', '.join(f'{value:g}' for value in reach)})" if reach.any() else ""
+                parts.append(f"{name} ({', '.join(f'{value:g}' for value in middle)}){around} {unit}")
+        loads.append(" and ".join(parts) or "nothing")
+    text = "; ".join(loads)
+    if own:
+        text = f"platform {own:g} kg with {text}" if text != "nothing" else f"platform {own:g} kg"
+    if len(loads) > 1:
+        text += ", each of which has to be held"
+    for rope in study.robot.counterbalances:
+        tension = f"{rope.tension_min:g} to {rope.tension_max:g}" if rope.is_controlled else f"{rope.tension_min:g}"
+        text += f"; counterbalance rope at {tension} N over {len(rope.frame_anchors)} segments"
+    return text
+
+
+def tension_words(study: Study) -> str:
+    """The tension model and the bounds that it keeps."""
+    model, bounds = study.tension_model, study.robot.bounds
+    if model.lets_cables_push:
+        return f"{model.value} (published model: cables may push)"
+    what = {
+        TensionModel.WRENCH_FEASIBLE: f"all {study.robot.degrees_of_freedom} equations balanced by cables that pull",
+        TensionModel.FORCE_ONLY: "forces balanced by cables that pull, moments left out",
+    }[model]
+    return f"{model.value} ({what}, {_range(bounds.tension_min, bounds.tension_max)} N)"
+
+
+def _range(lower: FloatArray, upper: FloatArray) -> str:
+    """``0 to 16000``, or one per cable where they differ; without an upper bound ``50 or more``."""
+    pairs = [
+        f"{low:g} to {high:g}" if high < inf else f"{low:g} or more" for low, high in zip(lower, upper, strict=True)
+    ]
+    return pairs[0] if len(set(pairs)) == 1 else ", ".join(pairs)
 
 
 def motion_words(study: Study) -> str:
     """The motion set in a sentence."""
     motion = study.motion
-    low, high = motion.acceleration_lower, motion.acceleration_upper
-    box = ", ".join(f"{a:.3f} to {b:.3f}" for a, b in sorted(set(zip(low.tolist(), high.tolist(), strict=True))))
-    kind = (
-        f"every velocity up to {motion.speed:g} m/s"
-        if motion.kind is MotionKind.INDEPENDENT
-        else f"{len(motion.velocities)} sampled velocities up to {motion.speed:g} m/s"
-    )
     term = "with" if motion.centripetal else "without"
-    return f"{motion.kind.value}: {kind} × accelerations {box} m/s² per axis, {term} the centripetal term"
+    if motion.kind is MotionKind.REST:
+        return "rest: the platform stands still"
+    if motion.kind is MotionKind.LISTED:
+        return f"list: {len(motion.listed)} given motions, {term} the centripetal term"
+    low, high = motion.acceleration_lower, motion.acceleration_upper
+    accelerations = (
+        f"up to {high[0]:.3f} m/s²"
+        if motion.acceleration_shape is SetShape.BALL
+        else ", ".join(f"{a:.3f} to {b:.3f}" for a, b in sorted(set(zip(low.tolist(), high.tolist(), strict=True))))
+        + " m/s² per axis"
+    )
+    if motion.kind is MotionKind.STRAIGHT:
+        text = f"every straight line up to {motion.speed:g} m/s, speeding up and braking along it by {accelerations}"
+    elif motion.kind is MotionKind.SAMPLED:
+        text = f"{len(motion.velocities)} sampled velocities up to {motion.speed:g} m/s × accelerations {accelerations}"
+    else:
+        each = " per axis" if motion.velocity_shape is SetShape.BOX else ""
+        text = f"every velocity up to {motion.speed:g} m/s{each} × accelerations {accelerations}"
+    if motion.turns:
+        text += f", turning at up to {motion.angular_speed:g} rad/s and {motion.angular_acceleration:g} rad/s²"
+    return f"{motion.kind.value}: {text}, {term} the centripetal term"
+
+
+def summary(selection: Selection) -> list[str]:
+    """The answer in three lines: what any drive could reach, the best candidate, what limits it and where."""
+    total, required = selection.poses, selection.required_percent
+    attainable = (
+        f"Attainable by any drive, however strong: {count_of(selection.attainable_poses, total)}"
+        f" under {selection.study.tension_model.value}"
+    )
+    if selection.robot_falls_short:
+        attainable += f". Below the required {required:g} %: the robot has to change, not the drive."
+    elif selection.study.tension_model.lets_cables_push:
+        attainable += ", which lets cables push."
+    else:
+        attainable += "."
+    best = selection.ranked[0]
+    done = {
+        Verdict.MEETS: f"meets the required {required:g} %",
+        Verdict.UNDECIDED: "is undecided, because figures are missing",
+        Verdict.FAILS: f"does not meet the required {required:g} %",
+    }[best.verdict]
+    exact = f", {best.exact_poses} by the exact joint test" if best.exact_poses is not None else ""
+    missed = f"; not served: {', '.join(best.missed)}" if best.missed else ""
+    return [
+        attainable,
+        f"Best candidate: {best.name} serves {share(best, total)}{exact}, and {done}{missed}.",
+        limit_words(best, total),
+    ]
+
+
+def limit_words(actuator: RankedActuator, total: int) -> str:
+    """What limits an actuator, and where."""
+    check = actuator.limiting_check
+    if check is None:
+        return "What limits it: no check could be evaluated."
+    verdict = actuator.checks[check]
+    if verdict.worst_utilisation is None or verdict.worst_position is None:
+        return "What limits it: nothing that a drive could change; no position is attainable."
+    where = ", ".join(f"{axis} {value:.3f}" for axis, value in zip("xyz", verdict.worst_position, strict=True))
+    return (
+        f"What limits it: {check.value} ({verdict.poses}/{total} on its own), most at {where} m, "
+        f"where the demand is {utilisation_words(verdict.worst_utilisation)} of the limit."
+    )
 
 
 def move_words(run: Simulation) -> str:

@@ -35,9 +35,7 @@ ANCHOR_COLUMNS = (
 )
 
 
-def rigid_body(
-    mass: float, centre_of_gravity: Sequence[float], inertia: Sequence[Sequence[float]] | None
-) -> RigidBody:
+def rigid_body(mass: float, centre_of_gravity: Sequence[float], inertia: Sequence[Sequence[float]] | None) -> RigidBody:
     """Body of a table; without an inertia a point at its centre of gravity."""
     return RigidBody(
         mass=mass,
@@ -109,9 +107,7 @@ def _planar_four(robot: RobotTable) -> CableRobot:
 _BUILDERS: dict[str, Callable[[RobotTable], CableRobot]] = {
     "cpr8": lambda robot: cpr8(np.array(robot.frame_m), np.array(robot.carrier_m)),
     "planar-4": _planar_four,
-    "six-six": lambda robot: six_six(
-        **_lengths(robot, "r_base_m", "r_end_m"), gamma=radians(robot.gamma_deg or 0.0)
-    ),
+    "six-six": lambda robot: six_six(**_lengths(robot, "r_base_m", "r_end_m"), gamma=radians(robot.gamma_deg or 0.0)),
     "suspended-8": lambda robot: suspended_eight(np.array(robot.hall_m), np.array(robot.platform_m)),
     "constrained-8": lambda robot: constrained_eight(np.array(robot.hall_m), np.array(robot.platform_m)),
 }
@@ -150,7 +146,9 @@ def read_anchors(path: Path, place: str) -> FloatArray:
                 anchors[line, column] = np.nan
             if not np.isfinite(anchors[line, column]):
                 problems.append(
-                    Problem(place=f"{path.name}, line {line + 2}, {name}", value=repr(row[name]), expected="a number [m]")
+                    Problem(
+                        place=f"{path.name}, line {line + 2}, {name}", value=repr(row[name]), expected="a number [m]"
+                    )
                 )
     if problems:
         raise InvalidStudy(f"{place} does not hold", problems)

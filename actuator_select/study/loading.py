@@ -152,9 +152,7 @@ def study_text(study: str | Path, overrides: Mapping[str, object] | None = None)
     return _overridden(text, overrides, str(study)) if overrides else text
 
 
-def load_study(
-    study: str | Path, overrides: Mapping[str, object] | None = None, *, limit: bool = True
-) -> Study:
+def load_study(study: str | Path, overrides: Mapping[str, object] | None = None, *, limit: bool = True) -> Study:
     """Load a study and check all of it.
 
     Parameters
@@ -187,9 +185,7 @@ def load_study(
     return parse_study(study_text(study, overrides), place=str(study), limit=limit)
 
 
-def parse_study(
-    text: str, *, place: str, overrides: Mapping[str, object] | None = None, limit: bool = True
-) -> Study:
+def parse_study(text: str, *, place: str, overrides: Mapping[str, object] | None = None, limit: bool = True) -> Study:
     """Validate the text of a study file and build the study.
 
     Parameters
@@ -239,9 +235,7 @@ def _refuse_moves_through_anchors(study: Study, place: str) -> None:
         raise InvalidStudy(f"study {place!r} does not hold", problems)
 
 
-def _variants(
-    study: Study, content: dict[str, object], place: str, folder: Path, *, limit: bool
-) -> Iterator[Variant]:
+def _variants(study: Study, content: dict[str, object], place: str, folder: Path, *, limit: bool) -> Iterator[Variant]:
     for index, one in enumerate(study.table.variant):
         where = f"study {place!r}, variant[{index}]"
         for key in one.set:
@@ -257,7 +251,9 @@ def _variants(
             apply_overrides(changed, one.set)
         except InvalidStudy as error:
             raise InvalidStudy(f"{where} does not hold", error.problems) from error
-        yield Variant(title=one.title, keys=tuple(one.set), study=_build(changed, study.text, where, folder, limit=limit))
+        yield Variant(
+            title=one.title, keys=tuple(one.set), study=_build(changed, study.text, where, folder, limit=limit)
+        )
 
 
 def _build(content: dict[str, object], text: str, place: str, folder: Path, *, limit: bool) -> Study:
@@ -367,8 +363,12 @@ def _motion(table: StudyTable) -> MotionSet:
         return rest(centripetal=motion.centripetal)
     if motion.set == "list":
         listed = [
-            [one.velocity_m_per_s, one.acceleration_m_per_s2]
-            + [one.angular_velocity_rad_per_s, one.angular_acceleration_rad_per_s2]
+            [
+                one.velocity_m_per_s,
+                one.acceleration_m_per_s2,
+                one.angular_velocity_rad_per_s,
+                one.angular_acceleration_rad_per_s2,
+            ]
             for one in motion.case
         ]
         return listed_motion(np.array(listed, dtype=np.float64), centripetal=motion.centripetal)

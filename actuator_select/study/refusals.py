@@ -27,7 +27,10 @@ def refuse_too_many_poses(table: StudyTable, cables: int, orientations: int, pla
         Beyond `MOST_CABLE_POSES`.
     """
     workspace, loads = table.workspace, len(table.payload)
-    poses, most = prod(workspace.points) * orientations * loads * max(1, len(table.motion.case)), MOST_CABLE_POSES // cables
+    poses, most = (
+        prod(workspace.points) * orientations * loads * max(1, len(table.motion.case)),
+        MOST_CABLE_POSES // cables,
+    )
     if poses > most:
         work = poses * cables
         loaded = f" with {loads} loads" if loads > 1 else ""

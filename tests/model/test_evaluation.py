@@ -13,9 +13,9 @@ from actuator_select.model.components import ActuatorSet
 from actuator_select.model.demand import Demand, compute_demand
 from actuator_select.model.dynamics import required_wrench
 from actuator_select.model.evaluation import evaluate_actuators, missing_figures, position_utilisation
+from actuator_select.model.families import cpr8, cpr8_region
 from actuator_select.model.kinematics import position_grid
 from actuator_select.model.motion import MotionSet, independent_motion, sampled_motion
-from actuator_select.model.families import cpr8, cpr8_region
 from actuator_select.model.robot import CableRobot
 from actuator_select.model.voltage import voltage_demand
 

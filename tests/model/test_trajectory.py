@@ -7,8 +7,8 @@ from actuator_select.model.actuation import Check
 from actuator_select.model.components import ActuatorSet
 from actuator_select.model.dynamics import required_wrench
 from actuator_select.model.exceedance import exceedances, peaks, with_peaks
-from actuator_select.model.kinematics import cable_geometry, least_cable_lengths
 from actuator_select.model.families import cpr8
+from actuator_select.model.kinematics import cable_geometry, least_cable_lengths
 from actuator_select.model.robot import CableRobot
 from actuator_select.model.trajectory import (
     DriveHistory,

@@ -1,0 +1,272 @@
+"""The exact test of limits that fall with cable speed and acceleration: one tension has to meet all of them jointly.
+
+The safe rule gives every cable one constant limit, the least that its own worst speed and acceleration leave. Over all
+motions at once more is possible, because the cables are not at their worst together. At a motion (v, a) a cable's limit
+is the least of two lines, torque and voltage; a hyperplane's condition is then that of the worst choice of lines among
+the cables that pull along its normal, and its worst motion is a closed form.
+"""
+
+from dataclasses import dataclass, replace
+from itertools import product
+
+import numpy as np
+
+from actuator_select.model.actuation import ROUNDING, VoltageLine
+from actuator_select.model.arrays import BoolArray, FloatArray, IntArray
+from actuator_select.model.demand import Demand, Wrenches
+from actuator_select.model.dynamics import wrench_scale
+from actuator_select.model.feasibility import structure_rank
+from actuator_select.model.hyperplanes import WRENCH_TOLERANCE, facet_normals, in_hyperplane
+from actuator_select.model.kinematics import cable_geometry
+from actuator_select.model.motion import MotionKind, MotionSet, extent
+from actuator_select.model.robot import CableRobot
+from actuator_select.model.supports import support_wrenches
+from actuator_select.model.tension import TensionModel
+
+MOST_CABLES = 12  # 4096 choices of lines; more take too long
+MOST_POSES = 20_000  # poses in doubt
+CHOICES_AT_ONCE = 1 << 19  # (pose, choice, cable) cells in one chunk
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DriveLines:
+    """Limits of one drive at the drum: force ≤ torque - torque_mass · s, force ≤ voltage - mass · s - damping · v.
+
+    Attributes
+    ----------
+    torque, torque_mass : float
+        Infinite and 0 where torque is not tested. [N, kg]
+    voltage, voltage_mass, voltage_damping : float
+        Infinite and 0 where voltage is not tested. [N, kg, N s/m]
+    """
+
+    torque: float
+    torque_mass: float
+    voltage: float
+    voltage_mass: float
+    voltage_damping: float
+
+    @classmethod
+    def of(cls, torque: VoltageLine | None, voltage: VoltageLine | None) -> "DriveLines":
+        """Lines of a single drive; None where a limit is not tested."""
+        return cls(
+            torque=np.inf if torque is None else float(torque.force_limit[0]),
+            torque_mass=0.0 if torque is None else float(torque.reflected_mass[0]),
+            voltage=np.inf if voltage is None else float(voltage.force_limit[0]),
+            voltage_mass=0.0 if voltage is None else float(voltage.reflected_mass[0]),
+            voltage_damping=0.0 if voltage is None else float(voltage.damping[0]),
+        )
+
+    def without_rotor_torque(self) -> "DriveLines":
+        """The same, with torque held against the load alone."""
+        return replace(self, torque_mass=0.0)
+
+
+def can_be_tested(robot: CableRobot, motion: MotionSet, model: TensionModel) -> bool:
+    """Whether the exact test has a closed form: bounded tensions, a platform that does not turn, few enough cables."""
+    kinds = (MotionKind.INDEPENDENT, MotionKind.STRAIGHT, MotionKind.REST)
+    return not model.lets_cables_push and motion.kind in kinds and not motion.turns and robot.cables <= MOST_CABLES
+
+
+def jointly_feasible(
+    robot: CableRobot, demand: Demand, wrenches: Wrenches, lines: DriveLines, poses: IntArray
+) -> BoolArray:
+    """Tell the poses at which one drive meets all limits jointly for every motion.
+
+    Parameters
+    ----------
+    robot : CableRobot
+        With m cables.
+    demand : Demand
+        Under a model with bounded tensions, `can_be_tested`.
+    wrenches : sequence of sequence of RequiredWrench
+        As the demand was computed with.
+    lines : DriveLines
+        The drive.
+    poses : (q,) array
+        Indices of the demand's poses.
+
+    Returns
+    -------
+    (q,) array of bool
+        Exact without the centripetal term. With it, a safe answer: the term relieves a cable that is wound in, and is
+        left out there.
+    """
+    rows = robot.translation_rows if demand.tension_model is TensionModel.FORCE_ONLY else robot.wrench_rows
+    cases = len(demand.lengths) // len(demand.positions)
+    loads = len(wrenches[0])
+    which = (poses % cases) // loads
+    load = poses % loads
+    positions, orientations = demand.positions[poses // cases], demand.orientations[which]
+    geometry = cable_geometry(robot, positions, orientations)
+    support = support_wrenches(robot, positions, orientations, rows)
+    scale = wrench_scale(robot, rows)
+    columns = np.concatenate([geometry.structure_matrix[:, rows], support.controlled], axis=2) * scale[:, None]
+    pick = list(rows)
+    required = [[wrenches[o][k] for k in range(loads)] for o in range(len(wrenches))]
+    static = np.array([[w.static[pick] * scale for w in each] for each in required])[which, load]
+    lever = np.array([[w.per_acceleration[pick] * scale[:, None] for w in each] for each in required])[which, load]
+    external = np.array([[w.external_reach[pick] * scale for w in each] for each in required])[which, load]
+    problem = _Problem(
+        robot=robot,
+        motion=demand.motion,
+        lines=lines,
+        columns=columns,
+        directions=geometry.directions * np.isin(np.arange(3), robot.free_axes),
+        static=static - support.constant * scale,
+        lever=lever,
+        external=external,
+        lower=np.concatenate([robot.bounds.tension_min, support.lower]),
+        upper=support.upper,
+    )
+    return demand.attainable[poses] & problem.box_is_open(demand.acceleration_out[poses]) & problem.holds()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Problem:
+    """q poses of one drive."""
+
+    robot: CableRobot
+    motion: MotionSet
+    lines: DriveLines
+    columns: FloatArray  # (q, n, M), counterbalances of controlled tension last
+    directions: FloatArray  # (q, m, 3)
+    static: FloatArray  # (q, n)
+    lever: FloatArray  # (q, n, 3)
+    external: FloatArray  # (q, n)
+    lower: FloatArray  # (M,)
+    upper: FloatArray  # (M - m,)
+
+    @property
+    def _acceleration(self) -> FloatArray:
+        return self.motion.acceleration_reach
+
+    def _along(self) -> tuple[FloatArray, FloatArray]:
+        """Greatest cable acceleration and speed of the motion set, without the centripetal term, each (q, m)."""
+        acceleration = extent(self.directions, self._acceleration, self.motion.acceleration_shape)
+        return acceleration, extent(self.directions, np.full(3, self.motion.speed), self.motion.velocity_shape)
+
+    def box_is_open(self, acceleration_out: FloatArray) -> BoolArray:
+        """Whether every cable's own limits leave room above its least tension, winding in and winding out, (q,)."""
+        lines, least = self.lines, self.lower[: self.robot.cables]
+        acceleration, speed = self._along()
+        up = (least + lines.torque_mass * acceleration <= lines.torque * (1.0 + ROUNDING)) & (
+            least + lines.voltage_mass * acceleration + lines.voltage_damping * speed
+            <= lines.voltage * (1.0 + ROUNDING)
+        )
+        down = (lines.torque_mass * acceleration_out - least <= lines.torque * (1.0 + ROUNDING)) & (
+            lines.voltage_mass * acceleration_out + lines.voltage_damping * speed - least
+            <= lines.voltage * (1.0 + ROUNDING)
+        )
+        return np.asarray((up & down).all(axis=1), dtype=np.bool_)
+
+    def holds(self) -> BoolArray:
+        """Whether every hyperplane leaves room for every motion, (q,)."""
+        result = np.ones(len(self.columns), dtype=np.bool_)
+        rank, left = structure_rank(self.columns)
+        for value in np.unique(rank):
+            at = np.flatnonzero(rank == value)
+            # What lies outside the range has been seen to with the minimax tension.
+            base = left[at][:, :, :value]
+            result[at] = self._holds(at, np.einsum("qnm,qnr->qrm", self.columns[at], base), base)
+        return result
+
+    def _holds(self, at: IntArray, columns: FloatArray, base: FloatArray) -> BoolArray:
+        result = np.ones(len(at), dtype=np.bool_)
+        if columns.shape[1] == 0:
+            return result
+        cables = self.robot.cables
+        torque = self._torque()[at]
+        for normal, _ in facet_normals(columns):
+            pulls = in_hyperplane(np.einsum("qr,qrm->qm", normal, columns), columns)
+            whole = np.einsum("qnr,qr->qn", base, normal)
+            middle = np.einsum("qn,qn->q", whole, self.static[at])
+            external = np.einsum("qn,qn->q", np.abs(whole), self.external[at])
+            lever = np.einsum("qn,qna->qa", whole, self.lever[at])
+            for sign in (1.0, -1.0):
+                with_it, against = np.maximum(sign * pulls, 0.0), np.maximum(-sign * pulls, 0.0)
+                needed = sign * middle + external + against @ self.lower
+                needed = needed - _times(with_it[:, cables:], self.upper)
+                room = self._room(at, with_it[:, :cables], sign * lever, torque)
+                size = np.abs(middle) + external + np.abs(room) + np.linalg.norm(lever, axis=1) * self._acceleration[0]
+                result &= needed <= room + WRENCH_TOLERANCE * size
+        return result
+
+    def _torque(self) -> FloatArray:
+        """Torque line's force at rest, lowered where the rope is weaker than the drive, (q, m)."""
+        acceleration, _ = self._along()
+        rope = self.robot.bounds.tension_max - self.lines.torque_mass * acceleration
+        return np.minimum(self.lines.torque, rope)
+
+    def _room(self, at: IntArray, pulls: FloatArray, lever: FloatArray, torque: FloatArray) -> FloatArray:
+        """What the cables can pull along the normal less what motion asks, least over lines and motions, (q,)."""
+        lines, cables = self.lines, pulls.shape[1]
+        if np.isinf(lines.voltage):
+            choices = np.zeros((1, cables))
+        elif np.isinf(lines.torque) and np.isinf(torque).all():
+            choices = np.ones((1, cables))
+        else:
+            choices = np.array(list(product((0.0, 1.0), repeat=cables)))
+        room = np.full(len(pulls), np.inf)
+        step = max(1, CHOICES_AT_ONCE // (len(choices) * cables))
+        for start in range(0, len(pulls), step):
+            part = slice(start, start + step)
+            room[part] = self._least_room(pulls[part], self.directions[at[part]], lever[part], torque[part], choices)
+        return room
+
+    def _least_room(
+        self, pulls: FloatArray, directions: FloatArray, lever: FloatArray, torque: FloatArray, choices: FloatArray
+    ) -> FloatArray:
+        lines, motion = self.lines, self.motion
+        by_voltage = pulls[:, None] * choices  # (q, c, m)
+        by_torque = pulls[:, None] - by_voltage
+        force = _times(by_torque, torque[:, None]) + _times(by_voltage, np.full_like(torque, lines.voltage)[:, None])
+        inertia = lines.torque_mass * by_torque + lines.voltage_mass * by_voltage
+        accelerating = lever[:, None] + np.einsum("qcm,qma->qca", inertia, directions)
+        cruising = lines.voltage_damping * np.einsum("qcm,qma->qca", by_voltage, directions)
+        if motion.kind is MotionKind.STRAIGHT:
+            fast, hard = motion.speed * cruising, self._acceleration[0] * accelerating
+            asked = np.maximum(np.linalg.norm(fast + hard, axis=-1), np.linalg.norm(fast - hard, axis=-1))
+        else:
+            asked = extent(accelerating, self._acceleration, motion.acceleration_shape)
+            asked = asked + extent(cruising, np.full(3, motion.speed), motion.velocity_shape)
+        least: FloatArray = (force - asked).min(axis=1)
+        return least
+
+
+def _times(pulls: FloatArray, limits: FloatArray) -> FloatArray:
+    """Sum of pull · limit over the last axis; an unlimited cable that does not pull adds nothing."""
+    total: FloatArray = (pulls * np.where(pulls > 0.0, limits, 0.0)).sum(axis=-1)
+    return total
+
+
+def exact_positions(
+    robot: CableRobot,
+    demand: Demand,
+    wrenches: Wrenches,
+    lines: DriveLines,
+    *,
+    safe: BoolArray,
+    possible: BoolArray,
+) -> BoolArray | None:
+    """Positions at which one drive meets all limits jointly, (P,); None where too many are in doubt.
+
+    Parameters
+    ----------
+    robot, demand, wrenches, lines
+        As for `jointly_feasible`.
+    safe : (P,) array of bool
+        Positions that pass by the safe rule, and need no test.
+    possible : (P,) array of bool
+        Positions that pass every necessary test: each limit alone, speed and acceleration at their least.
+    """
+    cases = len(demand.lengths) // len(demand.positions)
+    doubtful = np.flatnonzero(possible & ~safe)
+    if len(doubtful) * cases > MOST_POSES:
+        return None
+    result = safe.copy()
+    if len(doubtful):
+        poses = (doubtful[:, None] * cases + np.arange(cases)).ravel()
+        holds = jointly_feasible(robot, demand, wrenches, lines, poses)
+        result[doubtful] = holds.reshape(len(doubtful), cases).all(axis=1)
+    return result

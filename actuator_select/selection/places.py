@@ -1,0 +1,168 @@
+"""Which positions of a study count, which have to be served, and how many the exact test adds."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+
+from actuator_select.errors import InvalidInput, Problem
+from actuator_select.model.actuation import ROUNDING, Check, torque_line, voltage_line
+from actuator_select.model.arrays import FloatArray, IntArray
+from actuator_select.model.components import ActuatorSet
+from actuator_select.model.demand import Demand, Progress, compute_demand
+from actuator_select.model.evaluation import Evaluation, position_utilisation
+from actuator_select.model.joint import DriveLines, can_be_tested, exact_positions
+from actuator_select.model.kinematics import too_near
+from actuator_select.study import Study
+
+EXACT = 5  # best actuators that the exact joint test is made for
+CORNERS = np.array(np.meshgrid([0, 1], [0, 1], [0, 1], indexing="ij")).reshape(3, -1).T
+
+
+def counted_positions(study: Study) -> IntArray:
+    """Indices of the positions that count: all but those nearer to an anchor than `cables.length_min_m`.
+
+    Raises
+    ------
+    InvalidInput
+        If none is left.
+    """
+    counted = np.flatnonzero(~too_near(study.robot, study.positions, study.orientations))
+    if not len(counted):
+        problem = Problem(
+            place="cables.length_min_m",
+            value="every position of the workspace is nearer to an anchor",
+            expected="a length that some positions keep [m]",
+        )
+        raise InvalidInput("no position is left to serve", [problem])
+    return counted
+
+
+def study_demand(study: Study, positions: FloatArray | None = None, progress: Progress | None = None) -> Demand:
+    """What a study asks, whatever drives the robot; at its own positions unless others are given, (P, 3). [m]"""
+    return compute_demand(
+        study.robot,
+        study.positions if positions is None else positions,
+        study.orientations,
+        study.wrenches,
+        study.motion,
+        tension_model=study.tension_model,
+        progress=progress,
+    )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MissedPlaces:
+    """Places of `requirement.must_serve` that one actuator does not serve.
+
+    Attributes
+    ----------
+    served : bool or None
+        Whether it serves all of them; None where an unknown figure leaves it open.
+    titles : tuple of str
+        Of those that it does not serve, or is not known to.
+    """
+
+    served: bool | None
+    titles: tuple[str, ...]
+
+
+def missed_places(study: Study, actuators: ActuatorSet) -> list[MissedPlaces]:
+    """Hold every actuator against the places that have to be served.
+
+    Parameters
+    ----------
+    study : Study
+        With `requirement.must_serve`.
+    actuators : ActuatorSet
+        C actuators.
+
+    Returns
+    -------
+    list of MissedPlaces
+        One per actuator. A box is served if its corners, its centre and the grid positions inside it are.
+    """
+    places = study.table.requirement.must_serve
+    if not places:
+        return [MissedPlaces(served=True, titles=())] * len(actuators)
+    served = np.ones((len(actuators), len(places)), dtype=np.bool_)
+    known = served.copy()
+    for index, place in enumerate(places):
+        positions = (
+            np.array([place.position_m])
+            if place.position_m is not None
+            else _inside(study, np.array(place.box_m, dtype=np.float64))
+        )
+        demand = study_demand(study, positions)
+        utilisation = np.stack(list(position_utilisation(demand, actuators, study.checks).values()))
+        served[:, index] = (np.nan_to_num(utilisation) <= 1.0 + ROUNDING).all(axis=(0, 2))
+        served[:, index] &= demand.attainable_positions.all()
+        known[:, index] = ~np.isnan(utilisation).any(axis=(0, 2))
+    titles = [place.title for place in places]
+    return [
+        MissedPlaces(
+            served=False if not one.all() else None if not sure.all() else True,
+            titles=tuple(
+                title for title, holds, certain in zip(titles, one, sure, strict=True) if not holds or not certain
+            ),
+        )
+        for one, sure in zip(served, known, strict=True)
+    ]
+
+
+def _inside(study: Study, box: FloatArray) -> FloatArray:
+    grid = study.positions
+    inside = ((grid >= box[:, 0]) & (grid <= box[:, 1])).all(axis=1)
+    corners = np.where(CORNERS, box[:, 1], box[:, 0])
+    return np.vstack([corners, box.mean(axis=1), grid[inside]])
+
+
+def exact_counts(study: Study, evaluation: Evaluation, indices: Iterable[int]) -> dict[int, int]:
+    """Positions by the exact joint test, for the few actuators whose limits are known and the test can decide.
+
+    Parameters
+    ----------
+    study : Study
+        What was asked.
+    evaluation : Evaluation
+        By the safe rule.
+    indices : iterable of int
+        Actuators.
+
+    Returns
+    -------
+    dict of int to int
+        Actuator to positions.
+    """
+    demand = evaluation.demand
+    if not can_be_tested(study.robot, study.motion, study.tension_model):
+        return {}
+    counts = {}
+    for index in indices:
+        if not all(count.evaluated[index] for count in evaluation.checks.values()):
+            continue
+        actuator = evaluation.actuators.take([int(index)])
+        used = position_utilisation(demand, actuator, study.checks)
+        holds = {check: values[0] <= 1.0 + ROUNDING for check, values in used.items()}
+        attainable = demand.attainable_positions
+        safe = np.logical_and.reduce([attainable, *holds.values()])
+        alone = [holds[check] for check in (Check.SPEED, Check.TORQUE) if check in holds]
+        exact = exact_positions(
+            study.robot,
+            demand,
+            study.wrenches,
+            drive_lines(actuator, study.checks),
+            safe=safe,
+            possible=np.logical_and.reduce([attainable, *alone]),
+        )
+        if exact is not None:
+            counts[int(index)] = int(exact.sum())
+    return counts
+
+
+def drive_lines(actuator: ActuatorSet, checks: Iterable[Check]) -> DriveLines:
+    """Lines of a single drive that the checks ask for; torque without the rotor unless acceleration is tested."""
+    applied = set(checks)
+    torque = torque_line(actuator) if applied & {Check.TORQUE, Check.ACCELERATION} else None
+    lines = DriveLines.of(torque, voltage_line(actuator) if Check.VOLTAGE in applied else None)
+    return lines if Check.ACCELERATION in applied else lines.without_rotor_torque()
