@@ -121,7 +121,7 @@ def _images(dossier: Dossier) -> dict[str, Any]:
     ]
     return {
         "bars": _image(share_bars(dossier.selection, [detail.actuator for detail in dossier.details]), "svg"),
-        "workspaces": _image(workspace_panels(study, panels), "png"),
+        "workspaces": _image(workspace_panels(study, panels, leading.attainable), "png"),
         "variants": _image(workspace_panels(study, turned), "png") if turned else None,
         "slices": [
             (detail, _image(slice_panels(study, detail), "svg")) for detail in dossier.details[:PLANES] if detail.checks

@@ -28,6 +28,7 @@ LEVELS = 4  # slices of one actuator
 MOST_POINTS = 8000  # of one 3-D panel
 MOST_CROSSES = 400  # cells of one slice; beyond, the border is drawn
 UTILISATION_SHOWN = 2.0  # colours saturate there
+NEVER = "#C9CED2"  # where no drive could serve
 
 
 @house_style
@@ -68,7 +69,9 @@ def share_bars(selection: Selection, actuators: Sequence[RankedActuator]) -> Fig
 
 
 @house_style
-def workspace_panels(study: Study, panels: Sequence[tuple[str, BoolArray]]) -> Figure:
+def workspace_panels(
+    study: Study, panels: Sequence[tuple[str, BoolArray]], attainable: BoolArray | None = None
+) -> Figure:
     """Feasible and infeasible positions in 3-D, one panel each, as figures 4, 5 and 8 of Filipović & Kevac 2018.
 
     Parameters
@@ -77,6 +80,8 @@ def workspace_panels(study: Study, panels: Sequence[tuple[str, BoolArray]]) -> F
         Positions, frame anchors and region.
     panels : sequence of (str, (P,) array of bool)
         Title, and where the panel's actuator serves.
+    attainable : (P,) array of bool, optional
+        Where any drive could serve; other positions are drawn as such.
 
     Returns
     -------
@@ -90,26 +95,28 @@ def workspace_panels(study: Study, panels: Sequence[tuple[str, BoolArray]]) -> F
         axes = figure.add_subplot(rows, columns, index, projection="3d")
         if not isinstance(axes, Axes3D):  # pragma: no cover - matplotlib returns what was asked for
             raise TypeError(type(axes))
-        _workspace(axes, study, feasible)
+        _workspace(axes, study, feasible, np.ones_like(feasible) if attainable is None else attainable)
         axes.set_title(fill(title, TITLE_WIDTH), fontsize=8.5)
     figure.legend(
         handles=[
             Patch(color=BLUE, label="served"),
             Patch(facecolor="none", edgecolor=RED, label="not served (small crosses)"),
+            *([] if attainable is None or attainable.all() else [Patch(color=GREY, label="no drive could (dots)")]),
             Patch(color="black", label="frame anchors (triangles)"),
         ],
         loc="outside lower center",
-        ncols=3,
+        ncols=4,
     )
     return figure
 
 
-def _workspace(axes: Axes3D, study: Study, feasible: BoolArray) -> None:
+def _workspace(axes: Axes3D, study: Study, feasible: BoolArray, attainable: BoolArray) -> None:
     # More points than this would hide each other; every n-th shows the shape as well.
     step = -(-len(study.positions) // MOST_POINTS)
-    positions, feasible = study.positions[::step], feasible[::step]
+    positions, feasible, attainable = study.positions[::step], feasible[::step], attainable[::step]
     size = float(np.clip(3000.0 / len(positions), 1.0, 18.0))
-    served, missed = positions[feasible], positions[~feasible]
+    served, missed, never = positions[feasible], positions[~feasible & attainable], positions[~feasible & ~attainable]
+    axes.scatter(*never.T, marker=".", s=0.5 * size, color=GREY, linewidths=0.0, depthshade=False, rasterized=True)
     axes.scatter(*missed.T, marker="x", s=0.6 * size, color=RED, linewidths=0.6, depthshade=False, rasterized=True)
     axes.scatter(
         *served.T, marker="o", s=size, color=BLUE, alpha=0.75, linewidths=0.0, depthshade=False, rasterized=True
@@ -155,7 +162,7 @@ def slice_panels(study: Study, detail: ActuatorDetail) -> Figure:
     axis, levels = _sliced(study)
     first, second = (other for other in range(3) if other != axis)
     grid = study.table.workspace.points
-    utilisation = np.take(detail.utilisation.reshape(grid), levels, axis=axis)
+    utilisation = np.take(detail.utilisation.reshape(grid), levels, axis=axis)  # infinite where no drive could serve
     critical = np.take(detail.critical.reshape(grid), levels, axis=axis)
     heights = np.unique(study.positions[:, axis])
     edges = [_edges(study.region[other], grid[other]) for other in (first, second)]
@@ -184,9 +191,10 @@ def slice_panels(study: Study, detail: ActuatorDetail) -> Figure:
     not_served = "black line: the limit" if dense else "×  not served"
     figure.legend(
         handles=[Patch(color=CHECK_COLOURS[check], label=f"{check.value} is closest") for check in detail.checks]
+        + ([] if detail.attainable.all() else [Patch(color=NEVER, label="no drive could serve")])
         + [Patch(facecolor="white", edgecolor="black", label=not_served)],
         loc="outside lower center",
-        ncols=len(detail.checks) + 1,
+        ncols=len(detail.checks) + 2,
     )
     return figure
 
@@ -196,15 +204,19 @@ def _slice(
 ) -> QuadMesh:
     """Draw one slice twice: the closest check, and the utilisation, which is returned for the colour bar."""
     upper, lower = pair
+    never = np.ma.masked_where(np.isfinite(values), np.ones_like(values))
+    for axes in pair:
+        axes.pcolormesh(*edges, never.T, cmap=ListedColormap([NEVER]), rasterized=True)
+    finite = np.ma.masked_where(~np.isfinite(values), values)
     upper.pcolormesh(
         *edges,
-        which.T,
+        np.ma.masked_where(~np.isfinite(values), which).T,
         cmap=ListedColormap(colours),
         norm=BoundaryNorm(np.arange(len(colours) + 1) - 0.5, len(colours)),
         rasterized=True,
     )
     norm = TwoSlopeNorm(vcenter=1.0, vmin=0.0, vmax=UTILISATION_SHOWN)
-    shaded: QuadMesh = lower.pcolormesh(*edges, values.T, cmap="RdYlBu_r", norm=norm, rasterized=True)
+    shaded: QuadMesh = lower.pcolormesh(*edges, finite.T, cmap="RdYlBu_r", norm=norm, rasterized=True)
     for axes in pair:
         _mark_limit(axes, edges, values)
         axes.set_aspect("equal")
@@ -234,7 +246,7 @@ def _mark_limit(axes: Axes, edges: Sequence[FloatArray], values: FloatArray) -> 
     """Mark the cells over a limit, so that they show without colours; where there are many, their border."""
     centres = [(edge[:-1] + edge[1:]) / 2.0 for edge in edges]
     x, y = np.meshgrid(*centres, indexing="ij")
-    over = values > 1.0 + ROUNDING
+    over = (values > 1.0 + ROUNDING) & np.isfinite(values)
     if _is_dense(values):
         axes.contour(x, y, over.astype(np.float64), levels=[0.5], colors="black", linewidths=1.0)
         return

@@ -14,6 +14,7 @@ from actuator_select.model.drive_cloud import DriveCloud, drive_cloud
 from actuator_select.model.evaluation import position_utilisation
 from actuator_select.model.ranking import Verdict, required_positions
 from actuator_select.selection.candidates import Candidates
+from actuator_select.selection.models import ModelCount, compare_models
 from actuator_select.selection.plausibility import Finding, check_rows
 from actuator_select.selection.selection import (
     RankedActuator,
@@ -65,7 +66,7 @@ class Need:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ActuatorDetail:
-    """Where one actuator stands at each of P positions.
+    """Where one actuator stands at each of the study's P positions; NaN, -1 and False at those set apart.
 
     Attributes
     ----------
@@ -79,6 +80,8 @@ class ActuatorDetail:
         The evaluated checks.
     feasible : (P,) array of bool
         Where every evaluated check holds.
+    attainable : (P,) array of bool
+        Where some drive could serve.
     cloud : DriveCloud
         Operating points at the motor.
     figures : ActuatorSet
@@ -90,6 +93,7 @@ class ActuatorDetail:
     critical: IntArray
     checks: tuple[Check, ...]
     feasible: BoolArray
+    attainable: BoolArray
     cloud: DriveCloud
     figures: ActuatorSet
 
@@ -156,6 +160,8 @@ class Dossier:
         For every shown actuator that fails: the limits that keep it from the requirement.
     variants : tuple of VariantResult
         In the study's order.
+    models : tuple of ModelCount
+        The study under every tension model, for the detailed actuators.
     moves : tuple of (str, Simulation)
         Titles and simulations of the study's moves with the best actuator.
     parts : tuple of Part
@@ -167,6 +173,7 @@ class Dossier:
     details: tuple[ActuatorDetail, ...]
     needs: tuple[tuple[RankedActuator, tuple[Need, ...]], ...]
     variants: tuple[VariantResult, ...]
+    models: tuple[ModelCount, ...]
     moves: tuple[tuple[str, Simulation], ...]
     parts: tuple[Part, ...]
 
@@ -198,16 +205,20 @@ def build_dossier(selection: Selection, catalogue: Catalogue) -> Dossier:
         details=tuple(_detail(selection, actuator) for actuator in shown[:DETAILED]),
         needs=_needs(selection, [actuator for actuator in shown if actuator.verdict is Verdict.FAILS]),
         variants=tuple(_variant(selection, one) for one in selection.study.variants),
+        models=compare_models(
+            selection.study,
+            selection.result.evaluation.actuators.take([actuator.index for actuator in shown[:DETAILED]]),
+        ),
         moves=_moves(selection),
         parts=_parts(selection, shown, catalogue),
     )
 
 
 def feasible_positions(selection: Selection, index: int) -> BoolArray:
-    """Where every evaluated check of one candidate holds, (P,)."""
+    """Where every evaluated check of one candidate holds, at the positions that count, (n,)."""
     utilisation, _, _ = _worst(selection, index)
-    feasible: BoolArray = utilisation <= 1.0 + ROUNDING
-    return feasible
+    attainable = selection.result.evaluation.demand.attainable_positions
+    return np.asarray((utilisation <= 1.0 + ROUNDING) & attainable, dtype=np.bool_)
 
 
 def _worst(selection: Selection, index: int) -> tuple[FloatArray, IntArray, tuple[Check, ...]]:
@@ -215,7 +226,8 @@ def _worst(selection: Selection, index: int) -> tuple[FloatArray, IntArray, tupl
     evaluation = selection.result.evaluation
     checks = tuple(check for check, count in evaluation.checks.items() if count.evaluated[index])
     if not checks:
-        return np.zeros(selection.poses), np.full(selection.poses, -1, dtype=np.int64), ()
+        attainable = evaluation.demand.attainable_positions
+        return np.where(attainable, 0.0, np.inf), np.full(selection.poses, -1, dtype=np.int64), ()
     values = position_utilisation(evaluation.demand, evaluation.actuators.take([index]), checks)
     stacked = np.stack([values[check][0] for check in checks])
     return stacked.max(axis=0), stacked.argmax(axis=0), checks
@@ -225,14 +237,17 @@ def _detail(selection: Selection, actuator: RankedActuator) -> ActuatorDetail:
     utilisation, critical, checks = _worst(selection, actuator.index)
     evaluation = selection.result.evaluation
     figures = evaluation.actuators.take([actuator.index])
-    worst_positions = np.unique([evaluation.checks[check].worst_position[actuator.index] for check in checks])
+    worst = np.array([evaluation.checks[check].worst_position[actuator.index] for check in checks], dtype=np.int64)
+    result, attainable = selection.result, evaluation.demand.attainable_positions
+    feasible = (utilisation <= 1.0 + ROUNDING) & attainable
     return ActuatorDetail(
         actuator=actuator,
-        utilisation=utilisation,
-        critical=critical,
+        utilisation=result.spread(np.where(attainable, utilisation, np.inf)),
+        critical=result.spread(critical.astype(np.float64), -1.0).astype(np.int64),
         checks=checks,
-        feasible=utilisation <= 1.0 + ROUNDING,
-        cloud=drive_cloud(evaluation.demand, figures, CLOUD_POINTS, worst_positions),
+        feasible=result.spread(feasible.astype(np.float64), 0.0) > 0.0,
+        attainable=result.spread(attainable.astype(np.float64), 0.0) > 0.0,
+        cloud=drive_cloud(evaluation.demand, figures, CLOUD_POINTS, np.unique(worst[worst >= 0])),
         figures=figures,
     )
 
@@ -280,8 +295,9 @@ def _variant(selection: Selection, variant: Variant) -> VariantResult:
         fingerprint=selection.fingerprint,
         where=selection.where,
     )
+    feasible = feasible_positions(ranked, selection.ranked[0].index)
     return VariantResult(
-        variant=variant, selection=ranked, feasible=feasible_positions(ranked, selection.ranked[0].index)
+        variant=variant, selection=ranked, feasible=ranked.result.spread(feasible.astype(np.float64), 0.0) > 0.0
     )
 
 

@@ -60,9 +60,22 @@ def refuse_what_cannot_be(study: "Study", place: str) -> None:
     InvalidStudy
         Naming cables and position.
     """
-    problems = [*_same_cable_twice(study), *_nothing_to_hold(study), *_cables_without_length(study)]
+    problems = [*_rope_without_rule(study), *_same_cable_twice(study), *_nothing_to_hold(study), *_cables_without_length(study)]
     if problems:
         raise InvalidStudy(f"{place} does not hold", problems)
+
+
+def _rope_without_rule(study: "Study") -> list[Problem]:
+    controlled = any(rope.is_controlled for rope in study.robot.counterbalances)
+    if not (controlled and study.tension_model.lets_cables_push):
+        return []
+    return [
+        Problem(
+            place="tension.model",
+            value=f'"{study.tension_model.value}" with a counterbalance whose tension is controlled',
+            expected='"wrench_feasible" or "force_only", which choose that tension; or one constant tension [N]',
+        )
+    ]
 
 
 def _same_cable_twice(study: "Study") -> list[Problem]:
