@@ -159,13 +159,13 @@ def slice_panels(study: Study, detail: ActuatorDetail) -> Figure:
     Figure
         Two rows, one column per slice.
     """
-    axis, levels = _sliced(study)
+    axis, levels = sliced(study)
     first, second = (other for other in range(3) if other != axis)
     grid = study.table.workspace.points
     utilisation = np.take(detail.utilisation.reshape(grid), levels, axis=axis)  # infinite where no drive could serve
     critical = np.take(detail.critical.reshape(grid), levels, axis=axis)
     heights = np.unique(study.positions[:, axis])
-    edges = [_edges(study.region[other], grid[other]) for other in (first, second)]
+    edges = [cell_edges(study.region[other], grid[other]) for other in (first, second)]
     width, height = (float(edge[-1] - edge[0]) for edge in edges)
     panel = 1.7 * np.clip(height / width, 0.4, 1.6)
     # One slice alone stands beside its twin, not above it.
@@ -194,7 +194,7 @@ def slice_panels(study: Study, detail: ActuatorDetail) -> Figure:
         + ([] if detail.attainable.all() else [Patch(color=NEVER, label="no drive could serve")])
         + [Patch(facecolor="white", edgecolor="black", label=not_served)],
         loc="outside lower center",
-        ncols=len(detail.checks) + 2,
+        ncols=3,
     )
     return figure
 
@@ -224,7 +224,7 @@ def _slice(
     return shaded
 
 
-def _sliced(study: Study) -> tuple[int, list[int]]:
+def sliced(study: Study) -> tuple[int, list[int]]:
     """Axis that is cut, and the grid levels shown: a planar grid across its plane, others at several heights."""
     points = study.table.workspace.points
     planar = [axis for axis in range(3) if points[axis] == 1]
@@ -233,7 +233,7 @@ def _sliced(study: Study) -> tuple[int, list[int]]:
     return axis, sorted({round(level) for level in np.linspace(0, points[axis] - 1, count)})
 
 
-def _edges(interval: FloatArray, points: int) -> FloatArray:
+def cell_edges(interval: FloatArray, points: int) -> FloatArray:
     """Cell edges around the grid points of one axis."""
     low, high = interval
     if points == 1:
