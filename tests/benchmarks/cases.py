@@ -20,7 +20,7 @@ def large_demand(points: tuple[int, int, int]) -> Demand:
         cpr8(FRAME, CARRIER),
         position_grid(cpr8_region(FRAME, CARRIER), points),
         np.zeros((1, 3)),
-        required_wrench(2.0, 9.81),
+        [[required_wrench(2.0, 9.81)]],
         independent_motion(1.3, 1.82, 1.82, centripetal=True),
     )
 
