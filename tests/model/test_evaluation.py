@@ -285,3 +285,5 @@ def test_a_pose_at_an_anchor_is_served_by_nobody() -> None:
     for check in Check:
         assert evaluate_actuators(demand, unlimited, [check]).positions.tolist() == [0, 0]
     assert evaluate_actuators(demand, unlimited, list(Check)).positions.tolist() == [0, 0]
+    worst = evaluate_actuators(demand, unlimited, list(Check)).checks[Check.VOLTAGE].worst_utilisation
+    assert worst.tolist() == [np.inf, np.inf]
