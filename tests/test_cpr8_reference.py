@@ -48,7 +48,7 @@ def test_the_study_is_the_one_of_the_reference(catalogue: Catalogue) -> None:
     study, reference = load_study("cpr8"), REFERENCE["study"]
     assert list(study.table.robot.frame_m or ()) == reference["frame_m"]
     assert list(study.table.robot.carrier_m or ()) == reference["carrier_m"]
-    assert study.table.payload.mass_kg == reference["mass_kg"]
+    assert study.table.payload[0].mass_kg == reference["mass_kg"]
     assert study.table.gravity_m_per_s2 == reference["gravity_m_per_s2"]
     assert study.table.motion.speed_max_m_per_s == reference["speed_max_m_per_s"]
     assert study.table.motion.acceleration_time_s == reference["acceleration_time_s"]
@@ -125,7 +125,7 @@ def _residual(study: Study) -> np.ndarray:
     from actuator_select.model.tension import pseudo_inverse_tensions
 
     geometry = cable_geometry(study.robot, study.positions, study.orientations[0])
-    tensions = pseudo_inverse_tensions(geometry.structure_matrix, study.wrench)
+    tensions = pseudo_inverse_tensions(geometry.structure_matrix, study.wrench(study.orientations[0]))
     return np.concatenate([tensions.residual_static[..., None], tensions.residual_per_acceleration], axis=-1)
 
 

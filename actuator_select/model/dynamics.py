@@ -223,7 +223,7 @@ def _parts(robot: CableRobot, wrench: RequiredWrench, motion: MotionSet) -> tupl
         centre = centre + turning / 2.0
         boxes += [turning[None] / 2.0, angular.T[[normal]]]
     elif motion.angular_speed > 0.0 or motion.angular_acceleration > 0.0:
-        balls += _rotation_balls(wrench, motion.angular_speed)
+        balls += _rotation_balls(wrench, motion.angular_speed_bound)
         if motion.acceleration_shape is SetShape.BOX:
             boxes.append(angular.T)
         else:

@@ -98,6 +98,11 @@ class MotionSet:
         return self.speed * (np.sqrt(3.0) if self.velocity_shape is SetShape.BOX else 1.0)
 
     @property
+    def angular_speed_bound(self) -> float:
+        """Greatest magnitude of the angular velocity of a platform that turns about three axes. [rad/s]"""
+        return self.angular_speed * (np.sqrt(3.0) if self.velocity_shape is SetShape.BOX else 1.0)
+
+    @property
     def cases(self) -> int:
         """Sets that a pose has to hold one by one: the listed motions, else a single one."""
         return len(self.listed) if self.kind is MotionKind.LISTED else 1

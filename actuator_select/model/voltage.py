@@ -164,6 +164,8 @@ def voltage_demand(demand: Demand) -> VoltageDemand:
         parts.append(_bounded(demand, np.broadcast_to(demand.tension_min, demand.force.shape)))
     gathered = {name: np.concatenate([part[name] for part in parts], axis=1) for name in parts[0]}
     gathered["force"] = gathered["force"] + np.tile(demand.by_position(undefined), len(parts))
+    for name in ("speed_in", "speed_out"):  # the force says it; infinities of both would cancel
+        gathered[name] = np.where(np.isfinite(gathered[name]), gathered[name], 0.0)
     motion = demand.motion
     sampled = motion.kind is MotionKind.SAMPLED and motion.centripetal
     straight = motion.kind is MotionKind.STRAIGHT and demand.tensions is not None

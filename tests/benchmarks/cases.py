@@ -1,10 +1,12 @@
 """Seeded problems for the benchmarks."""
 
+from dataclasses import replace
+
 import numpy as np
 
-from actuator_select.model.arrays import FloatArray
+from actuator_select.model.arrays import FloatArray, IntArray
 from actuator_select.model.components import ActuatorSet
-from actuator_select.model.demand import Demand, compute_demand
+from actuator_select.model.demand import Demand, LinearTensions, compute_demand
 from actuator_select.model.dynamics import required_wrench
 from actuator_select.model.families import cpr8, cpr8_region
 from actuator_select.model.kinematics import position_grid
@@ -20,7 +22,7 @@ def large_demand(points: tuple[int, int, int]) -> Demand:
         cpr8(FRAME, CARRIER),
         position_grid(cpr8_region(FRAME, CARRIER), points),
         np.zeros((1, 3)),
-        required_wrench(2.0, 9.81),
+        [[required_wrench(2.0, 9.81)]],
         independent_motion(1.3, 1.82, 1.82, centripetal=True),
     )
 
@@ -64,12 +66,20 @@ def synthetic_actuators(demand: Demand, count: int, seed: int = 2018) -> Actuato
 def _voltages(demand: Demand, draft: ActuatorSet, generator: np.random.Generator) -> FloatArray:
     """A voltage per actuator that a random 20 to 80 % of a sample of the positions stay within."""
     sample = generator.choice(len(demand.positions), size=min(500, len(demand.positions)), replace=False)
-    small = Demand(
-        **{
-            name: getattr(demand, name) if name in ("orientations", "motion") else getattr(demand, name)[sample]
-            for name in Demand.__slots__
-        }
-    )
+    small = _at(demand, sample)
     asked = worst_voltage(small, draft).max(axis=2)
     share = generator.uniform(0.2, 0.8, len(draft))
     return np.array([np.quantile(one, part) for one, part in zip(asked, share, strict=True)])
+
+
+def _at(demand: Demand, poses: IntArray) -> Demand:
+    """The demand of some poses, where every position is one pose."""
+    if demand.tensions is None:
+        raise ValueError("the benchmarks take the pseudo-inverse")
+    tensions = {name: getattr(demand.tensions, name)[poses] for name in LinearTensions.__slots__}
+    by_pose = {
+        name: getattr(demand, name)[poses]
+        for name in Demand.__slots__
+        if name not in {"orientations", "motion", "tension_model", "tensions", "tension_min"}
+    }
+    return replace(demand, tensions=LinearTensions(**tensions), **by_pose)

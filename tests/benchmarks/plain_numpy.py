@@ -47,19 +47,21 @@ def worst_voltage(demand: Demand, actuators: ActuatorSet) -> FloatArray:
         values[:, None, None] for values in (shaft.inertia_gain, shaft.damping_gain, shaft.load_gain)
     )
     radius = actuators.drum_radius[:, None, None]
-    motion = demand.motion
+    motion, tensions = demand.motion, demand.tensions
+    if tensions is None:
+        raise ValueError("the formulas are those of the pseudo-inverse")
     box = np.zeros((len(actuators), *demand.lengths.shape))
     for axis in range(3):
         box += (
             np.abs(
                 gain / radius * demand.directions[..., axis]
-                + load * radius * demand.tension_per_acceleration[..., axis]
+                + load * radius * tensions.per_acceleration[..., axis]
             )
             * motion.acceleration_upper[axis]
         )
     swing = gain / (radius * demand.lengths)
     rate = np.minimum(motion.speed, damping / (2.0 * radius * swing))
-    static = load * radius * demand.static_tension
+    static = load * radius * tensions.static
     upper = damping * motion.speed / radius + static + box
     lower = damping * rate / radius + swing * (motion.speed**2 - rate**2) - static + box
     return np.maximum(upper, lower)

@@ -69,7 +69,7 @@ def against_the_scalar_loops() -> None:
     motion = sampled_motion(1.3, 1.82, 1.82, velocity_intervals=6, acceleration_levels=(-1.0, 1.0), centripetal=False)
 
     def ours() -> np.ndarray:
-        demand = compute_demand(cpr8(frame, carrier), grid, np.zeros((1, 3)), required_wrench(2.0, 9.81), motion)
+        demand = compute_demand(cpr8(frame, carrier), grid, np.zeros((1, 3)), [[required_wrench(2.0, 9.81)]], motion)
         return evaluate_actuators(demand, actuators, list(Check)).positions
 
     # Every motion is evaluated where a pose passes; those are what the paper's loops cost.

@@ -125,7 +125,7 @@ def test_the_compiled_kernel_equals_numpy(monkeypatch: pytest.MonkeyPatch) -> No
         balls = generator.uniform(-1.0, 1.0, (poses, sets, int(seed % 3), rows, 3))
         holdings = []
         for minimax in (minimax_by_numpy, kernel.minimax):
-            monkeypatch.setattr(feasibility, "_minimax", lambda _, minimax=minimax: minimax)
+            monkeypatch.setattr(feasibility, "_tools", lambda _, minimax=minimax: (minimax, None))
             holdings.append(hold(problem, balls))
         by_numpy, compiled = holdings
         cases += poses * sets

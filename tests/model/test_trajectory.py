@@ -10,6 +10,7 @@ from actuator_select.model.exceedance import exceedances, peaks, with_peaks
 from actuator_select.model.families import cpr8
 from actuator_select.model.kinematics import cable_geometry, least_cable_lengths
 from actuator_select.model.robot import CableRobot
+from actuator_select.model.tension import TensionModel
 from actuator_select.model.trajectory import (
     DriveHistory,
     DrivenMove,
@@ -21,6 +22,7 @@ from actuator_select.model.trajectory import (
 
 ROBOT = cpr8(np.array([3.2, 2.2, 2.2]), np.array([0.224, 0.154, 0.140]))
 WRENCH = required_wrench(2.0, 9.81)
+PUBLISHED = TensionModel.PSEUDO_INVERSE
 
 
 def actuator(**changed: float) -> ActuatorSet:
@@ -53,7 +55,7 @@ def line_move(profile: TrapezoidalProfile | None = None) -> LineMove:
 
 def history(drive: ActuatorSet, per_phase: int = 401) -> tuple[LineMove, DriveHistory]:
     move = line_move()
-    return move, DrivenMove(robot=ROBOT, wrench=WRENCH, move=move, actuator=drive).history(
+    return move, DrivenMove(robot=ROBOT, wrench=WRENCH, tension_model=PUBLISHED, move=move, actuator=drive).history(
         *instants(move.profile, per_phase)
     )
 
@@ -131,7 +133,7 @@ def test_without_the_centripetal_term_only_accelerations_and_voltages_change() -
     flat = LineMove(
         start=move.start, stop=move.stop, orientation=move.orientation, profile=move.profile, centripetal=False
     )
-    other = DrivenMove(robot=ROBOT, wrench=WRENCH, move=flat, actuator=actuator()).history(run.times, run.phases)
+    other = DrivenMove(robot=ROBOT, wrench=WRENCH, tension_model=PUBLISHED, move=flat, actuator=actuator()).history(run.times, run.phases)
     assert np.array_equal(other.torque, run.torque)
     assert np.array_equal(other.speed, run.speed)
     assert (other.acceleration >= run.acceleration).all()
@@ -139,7 +141,7 @@ def test_without_the_centripetal_term_only_accelerations_and_voltages_change() -
 
 
 def driven(drive: ActuatorSet) -> DrivenMove:
-    return DrivenMove(robot=ROBOT, wrench=WRENCH, move=line_move(), actuator=drive)
+    return DrivenMove(robot=ROBOT, wrench=WRENCH, tension_model=PUBLISHED, move=line_move(), actuator=drive)
 
 
 def test_peaks_are_found_between_coarse_instants() -> None:
@@ -206,6 +208,6 @@ def test_flat_histories_do_not_count_as_thousands_of_maxima() -> None:
         profile=trapezoidal_profile(1.9, 0.3, 1.0, 1.0),
         centripetal=True,
     )
-    hoist = DrivenMove(robot=robot, wrench=WRENCH, move=move, actuator=actuator())
+    hoist = DrivenMove(robot=robot, wrench=WRENCH, tension_model=PUBLISHED, move=move, actuator=actuator())
     coarse = hoist.history(*instants(move.profile, 401))
     assert len(with_peaks(hoist, coarse).times) < 4 * len(coarse.times)
