@@ -26,6 +26,8 @@ EXIT_INTERRUPTED = 130
 OUTPUT_ERRORS = (errno.EPIPE, errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO)  # of a stream that takes no more
 
 COMMANDS = {
+    "workspace": ("actuator_select.cli.workspace", "Find where the robot can work, whatever drives it."),
+    "sweep": ("actuator_select.cli.sweep", "Find the workspace over ranges of one or more keys of the study."),
     "rank": ("actuator_select.cli.rank", "Rank actuators by the share of the workspace that they can serve."),
     "report": ("actuator_select.cli.report", "Write the design report, one self-contained HTML file."),
     "simulate": ("actuator_select.cli.simulate", "Drive one actuator along a straight line and show its limits."),

@@ -29,6 +29,7 @@ SAFE_RULE = (
 )
 @click.option("--only-meeting", is_flag=True, help="Show only the actuators that meet the requirement.")
 @options.format_option("table", "json", "csv")
+@options.no_limit_option
 @options.database_option
 def command(
     study: str,
@@ -37,6 +38,7 @@ def command(
     require: float | None,
     only_meeting: bool,
     output_format: str,
+    no_limit: bool,
     database: str | None,
 ) -> None:
     """Rank actuators by the share of the workspace that they can serve.
@@ -56,7 +58,7 @@ def command(
     from actuator_select.selection import rank, selection_record
     from actuator_select.study import load_study, parse_overrides
 
-    loaded = load_study(study, parse_overrides(overrides))
+    loaded = load_study(study, parse_overrides(overrides), limit=not no_limit)
     with open_catalogue(database) as catalogue:
         console.say_all(catalogue.notices)
         with console.progress("Evaluating") as progress:

@@ -26,6 +26,7 @@ from actuator_select.cli.rank import print_ranking
 @click.option("--project", default="", help="Project, for the title block.")
 @click.option("--author", default="", help="Author, for the title block.")
 @click.option("--revision", default="", help="Revision, for the title block.")
+@options.no_limit_option
 @options.database_option
 def command(
     study: str,
@@ -36,6 +37,7 @@ def command(
     project: str,
     author: str,
     revision: str,
+    no_limit: bool,
     database: str | None,
 ) -> None:
     """Write the design report, one self-contained HTML file.
@@ -52,7 +54,7 @@ def command(
     from actuator_select.selection import rank
     from actuator_select.study import load_study, parse_overrides
 
-    loaded = load_study(study, parse_overrides(overrides))
+    loaded = load_study(study, parse_overrides(overrides), limit=not no_limit)
     path = output if output is not None else Path(f"{Path(study).stem}.html")
     with open_catalogue(database) as catalogue:
         console.say_all(catalogue.notices)

@@ -6,10 +6,18 @@ from itertools import pairwise
 from typing import Any
 
 import tomlkit
+from pydantic import BaseModel
 from tomlkit.exceptions import TOMLKitError
 
 from actuator_select.errors import InvalidStudy, Problem
+from actuator_select.study.problems import default_of
 
+# A key that stands for another one and takes its place.
+_REPLACES = {
+    "workspace.box_m": "workspace.region",
+    "robot.t5_n": "robot.t5_range_n",
+    "robot.t5_range_n": "robot.t5_n",
+}
 _BARE_WORD = re.compile(r"[A-Za-z_][\w.-]*")
 _KEY_PART = re.compile(r"([A-Za-z0-9_-]+)((?:\[\d+\])*)")
 
@@ -82,9 +90,11 @@ def apply_overrides(document: MutableMapping[str, Any], overrides: Mapping[str, 
         steps = _steps(key)
         container: Any = document
         try:
-            for step, following in pairwise(steps):
+            for depth, (step, following) in enumerate(pairwise(steps)):
                 if isinstance(following, str) and isinstance(step, str) and step not in container:
                     container[step] = tomlkit.table() if isinstance(document, tomlkit.TOMLDocument) else {}
+                if isinstance(following, int):
+                    _default_list(container, steps[: depth + 1])
                 container = container[step]
             container[steps[-1]] = value
         except (KeyError, IndexError, TypeError, TOMLKitError) as error:
@@ -99,8 +109,20 @@ def apply_overrides(document: MutableMapping[str, Any], overrides: Mapping[str, 
                     )
                 ],
             ) from error
-    if "workspace.box_m" in overrides and "workspace.region" not in overrides:
-        document["workspace"].pop("region", None)  # a box replaces the builder's region
+    for key, replaced in _REPLACES.items():
+        if key in overrides and replaced not in overrides:
+            table, _, name = replaced.partition(".")
+            document[table].pop(name, None)
+
+
+def _default_list(container: Any, path: Sequence[str | int]) -> None:  # noqa: ANN401 - plain or as tomlkit parsed it
+    """Write a list out that the study leaves at its default, so that one of its entries can be set."""
+    name = path[-1]
+    if not isinstance(container, MutableMapping) or name in container or not isinstance(name, str):
+        return
+    default = default_of(path)
+    if isinstance(default, tuple) and default and not isinstance(default[0], BaseModel):
+        container[name] = list(default)
 
 
 def _steps(key: str) -> list[str | int]:

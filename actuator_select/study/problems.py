@@ -153,6 +153,17 @@ def _known_keys(location: Sequence[str | int]) -> list[str]:
     return list(model.model_fields)
 
 
+def default_of(path: Sequence[str | int]) -> object:
+    """Default of the key at `path`, or None where it has none or the study knows no such key."""
+    model: type[BaseModel] | None = StudyTable
+    *tables, key = [step for step in path if isinstance(step, str)]
+    for step in tables:
+        field = model.model_fields.get(step) if model is not None else None
+        model = _table_type(field.annotation) if field is not None else None
+    field = model.model_fields.get(key) if model is not None else None
+    return field.default if field is not None and not field.is_required() else None
+
+
 def _table_type(annotation: Any) -> type[BaseModel] | None:  # noqa: ANN401 - an annotation can be anything
     if isinstance(annotation, type) and issubclass(annotation, BaseModel):
         return annotation
