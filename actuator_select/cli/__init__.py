@@ -32,6 +32,7 @@ COMMANDS = {
     "report": ("actuator_select.cli.report", "Write the design report, one self-contained HTML file."),
     "simulate": ("actuator_select.cli.simulate", "Drive one actuator along a straight line and show its limits."),
     "study": ("actuator_select.cli.study", "List, show and start study files."),
+    "robot": ("actuator_select.cli.robot", "Show a robot: anchors, rope lengths, forces on the frame, warnings."),
     "catalog": ("actuator_select.cli.catalog", "Query, extend and check the catalogue."),
 }
 
@@ -68,6 +69,7 @@ def command() -> None:
         actuator-select report cpr8 --output cpr8.html
     Then with your own robot:
         actuator-select study new my-robot.toml
+        actuator-select robot show my-robot.toml --plot my-robot.svg
         actuator-select rank my-robot.toml
     """
 

@@ -1,10 +1,12 @@
 """``actuator-select study``."""
 
+import shlex
 from pathlib import Path
 
 import click
 
 from actuator_select.cli import console, options
+from actuator_select.cli.simulate import Vector
 
 
 @click.group("study")
@@ -43,20 +45,57 @@ def show(study: str, overrides: tuple[str, ...]) -> None:
 
 @command.command("new")
 @click.argument("file", type=click.Path(path_type=Path), metavar="FILE.toml")
+@click.option(
+    "--template",
+    default="camera-4",
+    show_default=True,
+    metavar="NAME",
+    help="Family of robots: camera-4, planar-4, six-six, suspended-8, constrained-8, cpr8, or anchors (with --anchors).",
+)
+@click.option("--hall", type=Vector(), help="Length, width and height of the frame [m].")
+@click.option("--platform", type=Vector(), help="Length, width and height of the platform [m].")
+@click.option("--mass", type=float, metavar="KG", help="Mass of platform and load together [kg].")
+@click.option("--speed", type=float, metavar="M_PER_S", help="Greatest speed of the platform [m/s].")
+@click.option(
+    "--anchors",
+    type=click.Path(path_type=Path),
+    metavar="FILE.csv",
+    help="Anchors to copy into the study, with the columns cable, frame_x_m, frame_y_m, frame_z_m, platform_x_m, "
+    "platform_y_m, platform_z_m.",
+)
 @click.option("--force", is_flag=True, help="Replace an existing file.")
-def new(file: Path, force: bool) -> None:
-    """Write a commented study file to start from.
+def new(
+    file: Path,
+    template: str,
+    hall: tuple[float, ...] | None,
+    platform: tuple[float, ...] | None,
+    mass: float | None,
+    speed: float | None,
+    anchors: Path | None,
+    force: bool,
+) -> None:
+    """Write a commented study file to start from; it works as it stands.
 
-    It describes a small four-cable camera robot with explicit anchors and works as it stands.
+    \b
+    Examples:
+        actuator-select study new my-robot.toml
+        actuator-select study new hall.toml --template suspended-8 --hall 15,11,5 --platform 1,1,1 --mass 300
+        actuator-select study new mine.toml --template anchors --anchors anchors.csv --mass 40
+
+    The box to work in is a part of the frame that the robot can hold with the tensions stated.
     """
     from actuator_select._resources import replace_atomically
     from actuator_select.errors import OutputNotWritable
-    from actuator_select.study import parse_study, starter_text
+    from actuator_select.study import TemplateOptions, parse_study, template_text
 
     if file.exists() and not force:
         raise OutputNotWritable(f"{file} exists already; choose another name, or replace it with --force")
-    name = file.stem
-    text = starter_text(name)
+    options = TemplateOptions(hall=hall, platform=platform, mass=mass, speed=speed, anchors=anchors)
+    text = template_text(file.stem, template, options)
     parse_study(text, place=str(file))
     replace_atomically(file, text)
-    click.echo(f"Wrote {file}. Edit it, then: actuator-select rank {file}")
+    shown = shlex.quote(str(file))
+    picture = shlex.quote(str(file.with_suffix(".svg")))
+    click.echo(
+        f"Wrote {file}. Next: actuator-select robot show {shown} --plot {picture}, then actuator-select rank {shown}"
+    )

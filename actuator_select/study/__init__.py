@@ -6,18 +6,21 @@ from actuator_select.study.loading import (
     builtin_studies,
     load_study,
     parse_study,
-    starter_text,
     study_text,
 )
 from actuator_select.study.overrides import parse_overrides
+from actuator_select.study.templates import DEFAULT_TEMPLATE, TEMPLATES, TemplateOptions, template_text
 
 __all__ = [
+    "DEFAULT_TEMPLATE",
+    "TEMPLATES",
     "Study",
+    "TemplateOptions",
     "Variant",
     "builtin_studies",
     "load_study",
     "parse_overrides",
     "parse_study",
-    "starter_text",
     "study_text",
+    "template_text",
 ]

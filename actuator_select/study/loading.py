@@ -284,26 +284,6 @@ def _build(content: dict[str, object], text: str, place: str, folder: Path, *, l
     return study
 
 
-def starter_text(name: str) -> str:
-    """Text of a commented study file to start from, which works as it stands.
-
-    Parameters
-    ----------
-    name : str
-        Name of the new study.
-
-    Returns
-    -------
-    str
-        TOML.
-    """
-    return (
-        (_STUDIES / "starter.toml.txt")
-        .read_text(encoding="utf-8")
-        .replace('"@NAME@"', tomlkit.string(name).as_string())
-    )
-
-
 def _read(study: str | Path) -> str:
     path = Path(study)
     names = builtin_studies()

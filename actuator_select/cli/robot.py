@@ -1,0 +1,128 @@
+"""``actuator-select robot``."""
+
+import shlex
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from actuator_select.cli import console, options
+
+if TYPE_CHECKING:
+    from actuator_select.selection.robot_sheet import RobotSheet
+
+IMAGE_SUFFIXES = (".svg", ".png", ".pdf")
+
+
+@click.group("robot")
+def command() -> None:
+    """Look at a robot before any drive is chosen."""
+
+
+@command.command("show")
+@click.argument("study", metavar="STUDY")
+@options.set_option
+@click.option(
+    "--plot",
+    type=click.Path(path_type=Path, dir_okay=False),
+    metavar="FILE",
+    help="Draw the robot, as .svg, .png or .pdf.",
+)
+@options.format_option("table", "json", "csv")
+def show(study: str, overrides: tuple[str, ...], plot: Path | None, output_format: str) -> None:
+    """Show a robot: rope lengths, forces on the frame, cable speeds, and what to mind.
+
+    \b
+    Examples:
+        actuator-select robot show cpr8 --plot cpr8.svg
+        actuator-select robot show hall.toml --set workspace.points=[15,11,7] --format csv
+
+    Lengths and speeds are over all positions and orientations of the study; forces are those of standing still, over
+    the poses that can be held. CSV gives a row per cable.
+    """
+    from actuator_select.selection.robot_record import COLUMNS, cable_row, robot_record
+    from actuator_select.selection.robot_sheet import robot_sheet
+    from actuator_select.study import load_study, parse_overrides
+
+    if plot is not None and plot.suffix.lower() not in IMAGE_SUFFIXES:
+        raise click.BadParameter(f"{plot}: expected a name that ends in svg, png, pdf", param_hint="--plot")
+    loaded = load_study(study, parse_overrides(overrides))
+    with console.progress("Looking at the robot") as progress:
+        sheet = robot_sheet(loaded, progress)
+    if plot is not None:
+        _write_plot(sheet, plot)
+    if output_format == "json":
+        console.emit_json(robot_record(sheet))
+    elif output_format == "csv":
+        console.emit_csv(COLUMNS, [cable_row(cable) for cable in sheet.cables])
+    else:
+        print_robot(sheet)
+        typed = [word for one in overrides for word in ("--set", one)]
+        console.say(f"Next: {shlex.join(['actuator-select', 'rank', study, *typed])}")
+
+
+def _write_plot(sheet: "RobotSheet", plot: Path) -> None:
+    from actuator_select._resources import replace_atomically
+    from actuator_select.report.robot_figure import robot_figure
+    from actuator_select.report.style import image_bytes
+
+    replace_atomically(plot, image_bytes(robot_figure(sheet.study), plot.suffix.lower().removeprefix(".")))
+    console.say(f"Wrote {plot}")
+
+
+def print_robot(sheet: "RobotSheet") -> None:
+    """Print what the robot is, the table of cables, frame points with several cables, and warnings."""
+    from actuator_select.selection.robot_record import DISTRIBUTION, robot_items
+
+    click.echo(f"Robot of study {sheet.study.name}")
+    for name, text in robot_items(sheet).items():
+        click.echo(f"  {name:<12}{text}")
+    header = ["cable", "on the frame [m]", "on the platform [m]", "length [m]", "speed [m/s]", "largest force [N]"]
+    header += ["its direction", "with the platform at [m]"]
+    several = len(sheet.study.loads) > 1
+    bounded = any(cable.tension_bound is not None for cable in sheet.cables)
+    rows = [
+        [
+            str(cable.number),
+            _vector(cable.frame_anchor),
+            _vector(cable.platform_anchor),
+            f"{cable.shortest:.3f} … {cable.longest:.3f}",
+            f"{cable.speed:.3g}",
+            _force(cable.largest.force),
+            _vector(cable.largest.direction, 2),
+            _vector(cable.largest.position) + (f", {cable.largest.load}" if several and cable.largest.load else ""),
+            *([_force(cable.tension_bound)] if bounded else []),
+        ]
+        for cable in sheet.cables
+    ]
+    console.emit_table([*header, *(["at most [N]"] if bounded else [])], rows, right=(0, 3, 4, 5, 8) if bounded else (0, 3, 4, 5))
+    click.echo(
+        "Largest force: on the frame, towards the platform, standing still where that can be held; tensions by the\n"
+        f"{DISTRIBUTION[sheet.study.tension_model]}. Motion comes on top: a frame for the bounds of the tensions bears it."
+    )
+    shared = [point for point in sheet.frame_points if len(point.cables) > 1]
+    if shared:
+        console.emit_table(
+            ["cables", "frame point they share [m]", "largest force together [N]", "its direction", "with the platform at [m]"],
+            [
+                [
+                    " and ".join(str(number) for number in point.cables),
+                    _vector(point.anchor),
+                    _force(point.largest.force),
+                    _vector(point.largest.direction, 2),
+                    _vector(point.largest.position),
+                ]
+                for point in shared
+            ],
+            right=(2,),
+        )
+    for warning in sheet.warnings:
+        console.warn(warning.text)
+
+
+def _vector(vector: tuple[float, float, float] | None, digits: int = 3) -> str:
+    return "–" if vector is None else ", ".join(f"{one:.{digits}f}" for one in vector)
+
+
+def _force(force: float | None) -> str:
+    return "–" if force is None else f"{force:.4g}" if force < 1e4 else f"{force:.0f}"  # noqa: PLR2004 - whole newtons
