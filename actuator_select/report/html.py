@@ -72,15 +72,7 @@ def render_report(selection: Selection, catalogue: Catalogue, details: ReportDet
     '<!doctype html>'
     """
     dossier = build_dossier(selection, catalogue)
-    environment = Environment(
-        loader=PackageLoader("actuator_select.report"),
-        autoescape=True,
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
-    environment.filters["figure"] = _figure_value
-    return environment.get_template("report.html").render(
+    return environment().get_template("report.html").render(
         dossier=dossier,
         selection=selection,
         study=selection.study,
@@ -91,9 +83,23 @@ def render_report(selection: Selection, catalogue: Catalogue, details: ReportDet
         State=State,
         Verdict=Verdict,
         images=_images(dossier),
-        versions=_versions(),
+        versions=library_versions(),
         sources=_sources(dossier),
     )
+
+
+def environment() -> Environment:
+    """Templates of all reports; everything that they fill in is escaped."""
+    templates = Environment(
+        loader=PackageLoader("actuator_select.report"),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    templates.filters["figure"] = _figure_value
+    templates.filters["unit"] = lambda unit: str(unit).replace("2", "²").replace("3", "³")
+    return templates
 
 
 def _pushing(selection: Selection) -> int:
@@ -120,23 +126,25 @@ def _images(dossier: Dossier) -> dict[str, Any]:
         if "workspace.orientations_rad" in result.variant.keys and len(result.feasible) == len(study.positions)
     ]
     return {
-        "bars": _image(share_bars(dossier.selection, [detail.actuator for detail in dossier.details]), "svg"),
-        "workspaces": _image(workspace_panels(study, panels, leading.attainable), "png"),
-        "variants": _image(workspace_panels(study, turned), "png") if turned else None,
+        "bars": image(share_bars(dossier.selection, [detail.actuator for detail in dossier.details]), "svg"),
+        "workspaces": image(workspace_panels(study, panels, leading.attainable), "png"),
+        "variants": image(workspace_panels(study, turned), "png") if turned else None,
         "slices": [
-            (detail, _image(slice_panels(study, detail), "svg")) for detail in dossier.details[:PLANES] if detail.checks
+            (detail, image(slice_panels(study, detail), "svg")) for detail in dossier.details[:PLANES] if detail.checks
         ],
-        "planes": [(detail, _image(torque_speed_plane(detail), "svg")) for detail in dossier.details[:PLANES]],
-        "moves": [_image(simulation_figure(run), "svg") for _, run in dossier.moves],
+        "planes": [(detail, image(torque_speed_plane(detail), "svg")) for detail in dossier.details[:PLANES]],
+        "moves": [image(simulation_figure(run), "svg") for _, run in dossier.moves],
         "leading": leading.actuator.name,
     }
 
 
-def _image(figure: Figure, image_format: str) -> Markup:
+def image(figure: Figure, image_format: str) -> Markup:
+    """Picture that stands in a page by itself."""
     return Markup(data_uri(figure, image_format))  # noqa: S704 - base64 of our own picture
 
 
-def _versions() -> dict[str, str]:
+def library_versions() -> dict[str, str]:
+    """What a report was made with."""
     return {
         "actuator-select": version("actuator-select"),
         "Python": platform.python_version(),

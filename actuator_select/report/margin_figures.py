@@ -64,6 +64,14 @@ def tension_slices(study: Study, tension: FloatArray) -> Figure:
     return _slices(study, tension, norm, "viridis", "minimax tension [N]")
 
 
+@house_style
+def value_slices(study: Study, values: FloatArray, label: str) -> Figure:
+    """Any figure, (P,), slice by slice; grey where it is infinite, white where it is NaN."""
+    finite = values[np.isfinite(values)]
+    low, high = (float(finite.min()), float(finite.max())) if len(finite) else (0.0, 1.0)
+    return _slices(study, values, Normalize(vmin=low, vmax=max(high, low + 1e-9)), "viridis", label)
+
+
 def _slices(study: Study, values: FloatArray, norm: Normalize, colours: str, label: str) -> Figure:
     axis, levels = sliced(study)
     first, second = (other for other in range(3) if other != axis)

@@ -8,7 +8,8 @@ from actuator_select.model.arrays import BoolArray, FloatArray
 from actuator_select.model.demand import Demand, Progress
 from actuator_select.model.distribution import distribute
 from actuator_select.model.robot import CableRobot, Freedom
-from actuator_select.selection.selection import Warned, demand_warnings, study_demand
+from actuator_select.selection.cautions import Warned, demand_warnings
+from actuator_select.selection.places import study_demand
 from actuator_select.study import Study
 
 SAME_POINT = 1e-3  # m; frame anchors nearer to each other than this are one point of the frame

@@ -1,0 +1,78 @@
+"""A robot and where it can work, as one self-contained HTML page; no actuators are needed."""
+
+from typing import Any
+
+import numpy as np
+
+from actuator_select.report.html import ReportDetails, environment, image, library_versions
+from actuator_select.report.margin_figures import margin_slices, planar_maps, tension_slices, value_slices
+from actuator_select.report.robot_figure import robot_figure
+from actuator_select.report.robot_workspace import sweep_figure, workspace_map
+from actuator_select.report.workspace_figures import workspace_panels
+from actuator_select.selection import wording
+from actuator_select.selection.robot_record import DISTRIBUTION, robot_items
+from actuator_select.selection.workspace_dossier import WorkspaceDossier, build_workspace_dossier
+from actuator_select.selection.workspaces import workspace_basis, workspace_words
+from actuator_select.study import Study
+
+
+def render_workspace_report(study: Study, details: ReportDetails | None = None) -> str:
+    """Render the report on a robot's workspace.
+
+    Parameters
+    ----------
+    study : Study
+        With its variants, sweeps and notes.
+    details : ReportDetails, optional
+        Title block, date and command; the present time alone by default.
+
+    Returns
+    -------
+    str
+        HTML without references to other files or to the network.
+    """
+    dossier = build_workspace_dossier(study)
+    return environment().get_template("workspace.html").render(
+        dossier=dossier,
+        study=study,
+        sheet=dossier.sheet,
+        own=dossier.own,
+        items=robot_items(dossier.sheet),
+        basis=workspace_basis(dossier.own),
+        distribution=DISTRIBUTION[study.tension_model],
+        details=ReportDetails() if details is None else details,
+        words=wording,
+        describe=workspace_words,
+        images=_images(dossier),
+        versions=library_versions(),
+    )
+
+
+def _images(dossier: WorkspaceDossier) -> dict[str, Any]:
+    study = dossier.study
+    planar = sum(count > 1 for count in study.table.workspace.points) == 2  # noqa: PLR2004 - a plane
+    alike = [
+        (f"{one.title}: {result.feasible_poses} of {result.poses}", result.feasible)
+        for one, result in dossier.variants
+        if len(result.feasible) == len(study.positions)
+    ]
+    maps = planar_maps if planar else workspace_panels
+    return {
+        "robot": image(robot_figure(study), "png"),
+        "map": image(workspace_map(dossier.own), "png"),
+        "margin": image(margin_slices(study, dossier.own.margin), "svg") if np.isfinite(dossier.own.margin).any() else None,
+        "tension": image(tension_slices(study, dossier.tension), "svg")
+        if dossier.tension is not None and np.isfinite(dossier.tension).any()
+        else None,
+        "variants": image(maps(study, alike), "png") if alike else None,
+        "sweeps": [image(sweep_figure(result), "svg") for _, _, result in dossier.sweeps],
+        "interval": [
+            image(value_slices(study, values, label), "svg")
+            for values, label in (
+                (dossier.interval.lower, "least tension of the rope [N]"),
+                (dossier.interval.upper, "greatest tension of the rope [N]"),
+            )
+        ]
+        if dossier.interval is not None
+        else [],
+    }
