@@ -1,6 +1,7 @@
 """How fast and with what acceleration every cable winds over a motion set: closed forms, worst cases only."""
 
 from dataclasses import dataclass
+from itertools import product
 
 import numpy as np
 
@@ -62,8 +63,8 @@ def cable_motion(robot: CableRobot, geometry: CableGeometry, motion: MotionSet) 
     Returns
     -------
     CableMotion
-        Exact where the platform does not turn; of a turning spatial platform a safe bound, the sum of the worst cases
-        of the terms.
+        Exact where the platform does not turn, but for the acceleration winding out of straight moves; that, and all
+        of a platform that turns, is a safe bound: the sum of the worst cases of the terms.
     """
     along = geometry.directions * _mask(robot.free_axes)
     about = geometry.structure_matrix[:, 3:].swapaxes(-1, -2) * _mask(robot.turning_axes)
@@ -116,10 +117,18 @@ def _largest(
     anchor_speed = np.full_like(speed, motion.speed_bound)
     if motion.turns:
         speed = speed + extent(about, np.full(3, motion.angular_speed), motion.velocity_shape)
-        spin = motion.angular_speed * (np.sqrt(3.0) if motion.velocity_shape is SetShape.BOX else 1.0)
-        anchor_speed = anchor_speed + spin * np.linalg.norm(robot.platform_anchors, axis=1)
+        anchor_speed = anchor_speed + motion.angular_speed_bound * np.linalg.norm(robot.platform_anchors, axis=1)
     nothing = np.zeros_like(speed)
+    if motion.velocity_shape is SetShape.BOX and not motion.turns:
+        return speed, speed, nothing, inverse_length * _across_at_corners(robot, along) * motion.speed**2
     return speed, speed, nothing, inverse_length * anchor_speed**2 * (geometry.lengths > 0.0)
+
+
+def _across_at_corners(robot: CableRobot, along: FloatArray) -> FloatArray:
+    """Greatest ‖v‖² - (u·v)² of the box |v_j| ≤ 1, (q, m): convex in v, and so largest at a corner."""
+    corners = np.array(list(product((-1.0, 1.0), repeat=3))) * _mask(robot.free_axes)
+    across: FloatArray = ((corners**2).sum(axis=1) - (along @ corners.T) ** 2).max(axis=-1)
+    return across
 
 
 def _turning(robot: CableRobot, geometry: CableGeometry, motion: MotionSet) -> tuple[FloatArray, FloatArray]:
@@ -127,7 +136,7 @@ def _turning(robot: CableRobot, geometry: CableGeometry, motion: MotionSet) -> t
     if not motion.centripetal:
         return np.zeros_like(geometry.lengths), np.zeros_like(geometry.lengths)
     inwards = np.einsum("qmk,qmk->qm", geometry.directions, geometry.arms)  # u · R b
-    square = motion.angular_speed**2 * (3.0 if motion.velocity_shape is SetShape.BOX else 1.0)
+    square = motion.angular_speed_bound**2
     if len(robot.turning_axes) == 1:
         across = geometry.arms * _mask(robot.free_axes)
         inwards = np.einsum("qmk,qmk->qm", geometry.directions, across)

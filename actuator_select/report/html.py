@@ -72,19 +72,23 @@ def render_report(selection: Selection, catalogue: Catalogue, details: ReportDet
     '<!doctype html>'
     """
     dossier = build_dossier(selection, catalogue)
-    return environment().get_template("report.html").render(
-        dossier=dossier,
-        selection=selection,
-        study=selection.study,
-        details=ReportDetails() if details is None else details,
-        words=wording,
-        shortlist=shortlist(selection),
-        pushing=_pushing(selection),
-        State=State,
-        Verdict=Verdict,
-        images=_images(dossier),
-        versions=library_versions(),
-        sources=_sources(dossier),
+    return (
+        environment()
+        .get_template("report.html")
+        .render(
+            dossier=dossier,
+            selection=selection,
+            study=selection.study,
+            details=ReportDetails() if details is None else details,
+            words=wording,
+            shortlist=shortlist(selection),
+            pushing=_pushing(selection),
+            State=State,
+            Verdict=Verdict,
+            images=_images(dossier),
+            versions=library_versions(),
+            sources=_sources(dossier),
+        )
     )
 
 

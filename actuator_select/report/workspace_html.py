@@ -32,19 +32,23 @@ def render_workspace_report(study: Study, details: ReportDetails | None = None) 
         HTML without references to other files or to the network.
     """
     dossier = build_workspace_dossier(study)
-    return environment().get_template("workspace.html").render(
-        dossier=dossier,
-        study=study,
-        sheet=dossier.sheet,
-        own=dossier.own,
-        items=robot_items(dossier.sheet),
-        basis=workspace_basis(dossier.own),
-        distribution=DISTRIBUTION[study.tension_model],
-        details=ReportDetails() if details is None else details,
-        words=wording,
-        describe=workspace_words,
-        images=_images(dossier),
-        versions=library_versions(),
+    return (
+        environment()
+        .get_template("workspace.html")
+        .render(
+            dossier=dossier,
+            study=study,
+            sheet=dossier.sheet,
+            own=dossier.own,
+            items=robot_items(dossier.sheet),
+            basis=workspace_basis(dossier.own),
+            distribution=DISTRIBUTION[study.tension_model],
+            details=ReportDetails() if details is None else details,
+            words=wording,
+            describe=workspace_words,
+            images=_images(dossier),
+            versions=library_versions(),
+        )
     )
 
 
@@ -60,7 +64,9 @@ def _images(dossier: WorkspaceDossier) -> dict[str, Any]:
     return {
         "robot": image(robot_figure(study), "png"),
         "map": image(workspace_map(dossier.own), "png"),
-        "margin": image(margin_slices(study, dossier.own.margin), "svg") if np.isfinite(dossier.own.margin).any() else None,
+        "margin": image(margin_slices(study, dossier.own.margin), "svg")
+        if np.isfinite(dossier.own.margin).any()
+        else None,
         "tension": image(tension_slices(study, dossier.tension), "svg")
         if dossier.tension is not None and np.isfinite(dossier.tension).any()
         else None,

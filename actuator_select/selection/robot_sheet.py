@@ -167,7 +167,7 @@ def robot_sheet(study: Study, progress: Progress | None = None) -> RobotSheet:
         Forces are those of the study's tension distribution at rest, external loads in the middle of their range, over
         the poses that can be held so.
     """
-    robot, demand = study.robot, study_demand(study, progress)
+    robot, demand = study.robot, study_demand(study, progress=progress)
     groups = _same_points(robot.frame_anchors)
     single, joint = _Largest([[cable] for cable in range(robot.cables)]), _Largest(groups)
     held = _stand_still(study, [single, joint])

@@ -112,6 +112,4 @@ def _interval(study: Study) -> SupportInterval | None:
     if len(study.robot.counterbalances) != 1 or study.tension_model.lets_cables_push:
         return None
     rows = study.robot.translation_rows if study.tension_model is TensionModel.FORCE_ONLY else None
-    return support_interval(
-        study.robot, study.positions, study.orientations, study.wrenches, study.motion, rows=rows
-    )
+    return support_interval(study.robot, study.positions, study.orientations, study.wrenches, study.motion, rows=rows)

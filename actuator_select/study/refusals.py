@@ -60,7 +60,12 @@ def refuse_what_cannot_be(study: "Study", place: str) -> None:
     InvalidStudy
         Naming cables and position.
     """
-    problems = [*_rope_without_rule(study), *_same_cable_twice(study), *_nothing_to_hold(study), *_cables_without_length(study)]
+    problems = [
+        *_rope_without_rule(study),
+        *_same_cable_twice(study),
+        *_nothing_to_hold(study),
+        *_cables_without_length(study),
+    ]
     if problems:
         raise InvalidStudy(f"{place} does not hold", problems)
 

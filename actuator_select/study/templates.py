@@ -269,11 +269,15 @@ def _refuse_options(template: str, own: _Template, given: TemplateOptions) -> No
         hall, platform = given.hall or own.hall, given.platform or own.platform
         axes = (0, 2) if template == "planar-4" else (0, 1, 2)
         if any(platform[axis] >= hall[axis] for axis in axes):
-            problems.append(_problem("platform", platform, f"a platform smaller than the hall, {_shown(hall)} m, on every axis"))
+            problems.append(
+                _problem("platform", platform, f"a platform smaller than the hall, {_shown(hall)} m, on every axis")
+            )
         elif template == "cpr8":
             room = cpr8_region(np.array(hall), np.array(platform))
             if (room[:, 0] >= room[:, 1]).any():
-                problems.append(_problem("platform", platform, f"a carrier whose diagonal fits into the hall, {_shown(hall)} m"))
+                problems.append(
+                    _problem("platform", platform, f"a carrier whose diagonal fits into the hall, {_shown(hall)} m")
+                )
     if problems:
         raise InvalidInput(f"the template {template} cannot be made so", problems)
 
@@ -351,7 +355,11 @@ def _attempts(
     ramp = float(f"{max(speed / own.acceleration, 0.1):.2g}")
     for shares, stronger in product(SHRUNK, STRONGER):
         greatest = float(f"{stronger * own.strength * mass * GRAVITY:.2g}")
-        note = own.tension_note if stronger == 1.0 else f"{stronger * own.strength:g} times the weight, which this shape takes"
+        note = (
+            own.tension_note
+            if stronger == 1.0
+            else f"{stronger * own.strength:g} times the weight, which this shape takes"
+        )
         words = {
             "TENSION_MIN": _number(LEAST_TENSION * greatest),
             "TENSION_MAX": _number(greatest),
@@ -372,31 +380,33 @@ def _attempts(
             yield words, np.round(box, 3)
 
 
-def _filled(
-    template: str, own: _Template, name: str, words: dict[str, str], draft: _Draft, box: FloatArray
-) -> str:
+def _filled(template: str, own: _Template, name: str, words: dict[str, str], draft: _Draft, box: FloatArray) -> str:
     middle, extent = box.mean(axis=1), box[:, 1] - box[:, 0]
     points = [1 if one == 0.0 else max(LEAST_POINTS, round(MOST_POINTS * one / extent.max())) for one in extent]
     inner = np.column_stack([middle - extent / 4.0, middle + extent / 4.0])
     long = int(extent.argmax())
     ends = np.repeat(middle[None], 2, axis=0)
     ends[:, long] = box[long]
-    marks = draft.words | words | {
-        "NAME": tomlkit.string(name).as_string(),
-        "DESCRIPTION": tomlkit.string(own.description).as_string(),
-        "BOX_NOTE": _BOX_NOTE,
-        "BOX": "[" + ", ".join(_vector(one) for one in box) + "]",
-        "INNER_BOX": "[" + ", ".join(_vector(one) for one in inner) + "]",
-        "POINTS": str(points),
-        "HOME": _vector(middle),
-        "FROM": _vector(ends[0]),
-        "TO": _vector(ends[1]),
-        "LENGTH_MIN": _number(0.02 * float(draft.size.max())),
-        "LENGTH_MAX": _number(2.0 * float(np.linalg.norm(draft.size))),
-        "GRAVITY_ARM": "0.0" if not draft.turns else "-0.05",
-        "TURNING": _TURNING if draft.turns else "",
-        "TENSION_MODEL": _HUNG if template == "cpr8" else _HELD,
-    }
+    marks = (
+        draft.words
+        | words
+        | {
+            "NAME": tomlkit.string(name).as_string(),
+            "DESCRIPTION": tomlkit.string(own.description).as_string(),
+            "BOX_NOTE": _BOX_NOTE,
+            "BOX": "[" + ", ".join(_vector(one) for one in box) + "]",
+            "INNER_BOX": "[" + ", ".join(_vector(one) for one in inner) + "]",
+            "POINTS": str(points),
+            "HOME": _vector(middle),
+            "FROM": _vector(ends[0]),
+            "TO": _vector(ends[1]),
+            "LENGTH_MIN": _number(0.02 * float(draft.size.max())),
+            "LENGTH_MAX": _number(2.0 * float(np.linalg.norm(draft.size))),
+            "GRAVITY_ARM": "0.0" if not draft.turns else "-0.05",
+            "TURNING": _TURNING if draft.turns else "",
+            "TENSION_MODEL": _HUNG if template == "cpr8" else _HELD,
+        }
+    )
     robot = _read(template).rstrip().replace("@CABLES@", marks.get("CABLES", ""))
     text = _read("common").replace("@ROBOT@", robot.replace("@COUNTERBALANCE@", _counterbalance(draft, words)))
     return _aligned(re.sub("@([A-Z_0-9]+)@", lambda mark: marks[mark[1]], text))

@@ -5,6 +5,7 @@ Arrays of S motions are (S, 3): velocity and acceleration of the platform's orig
 acceleration, all in the world frame.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import product
 
@@ -160,8 +161,9 @@ class MotionLimits:
         velocity = _clipped(raw[:, 0] * free, box=self.velocity_box)
         acceleration = _clipped(raw[:, 1] * free, box=self.acceleration_box)
         if self.straight:
-            line = velocity + 1e-300 * free
-            line /= np.linalg.norm(line, axis=1, keepdims=True)
+            length = np.linalg.norm(velocity, axis=1, keepdims=True)
+            line = velocity / np.where(length > 0.0, length, 1.0)
+            velocity = line * np.clip(raw[:, 1, 1:2], -1.0, 1.0)
             acceleration = line * np.clip(raw[:, 1, :1], -1.0, 1.0)
         return Motions(
             velocity=self.speed * velocity,
@@ -182,7 +184,7 @@ class MotionLimits:
         random *= generator.uniform(0.0, 1.5, (count, 4, 1))
         result = np.where(generator.random((count, 1, 1)) < 0.5, picked, random)
         if self.straight:
-            result[:, 1, 0] = generator.choice([-1.0, 0.0, 1.0], size=count)
+            result[:, 1, :2] = generator.choice([-1.0, 0.0, 1.0], size=(count, 2))
         return result
 
 
@@ -192,12 +194,14 @@ def _clipped(raw: np.ndarray, *, box: bool) -> np.ndarray:
     return raw / np.maximum(1.0, np.linalg.norm(raw, axis=1, keepdims=True))
 
 
-def climb(objective, limits: MotionLimits, starts: np.ndarray, generator: np.random.Generator) -> float:  # noqa: ANN001
-    """Largest value that random steps of shrinking size reach from the best of the (S, 4, 3) starts."""
-    values = objective(limits.into(starts))
-    best, at = values.max(), starts[values.argmax()]
-    for size in np.geomspace(0.3, 1e-6, 60):
-        steps = at + size * generator.normal(size=(60, 4, 3)) * (generator.random((60, 4, 1)) < 0.6)
+def climb(
+    objective: Callable[[Motions], np.ndarray], limits: MotionLimits, start: np.ndarray, generator: np.random.Generator
+) -> float:
+    """Largest value that random steps of shrinking size reach from the (4, 3) start."""
+    best, at = -np.inf, start
+    for size in np.geomspace(0.3, 1e-4, 40):
+        steps = at + size * generator.normal(size=(40, 4, 3)) * (generator.random((40, 4, 1)) < 0.6)
+        steps[0] = at
         values = objective(limits.into(steps))
         if values.max() > best:
             best, at = values.max(), steps[values.argmax()]
