@@ -68,7 +68,7 @@ def share_bars(selection: Selection, actuators: Sequence[RankedActuator]) -> Fig
 
 
 @house_style
-def workspace_panels(study: Study, panels: Sequence[tuple[str, BoolArray]]) -> Figure:
+def workspace_panels(study: Study, panels: Sequence[tuple[str, BoolArray]], *, served: str = "served") -> Figure:
     """Feasible and infeasible positions in 3-D, one panel each, as figures 4, 5 and 8 of Filipović & Kevac 2018.
 
     Parameters
@@ -77,6 +77,8 @@ def workspace_panels(study: Study, panels: Sequence[tuple[str, BoolArray]]) -> F
         Positions, frame anchors and region.
     panels : sequence of (str, (P,) array of bool)
         Title, and where the panel's actuator serves.
+    served : str
+        What the legend calls these positions.
 
     Returns
     -------
@@ -85,7 +87,8 @@ def workspace_panels(study: Study, panels: Sequence[tuple[str, BoolArray]]) -> F
     """
     columns = min(PANELS_PER_ROW, len(panels))
     rows = -(-len(panels) // columns)
-    figure = new_figure(2.9 * columns, 2.75 * rows + 0.3)
+    # A lone panel needs the width of its legend, and has the room to be large.
+    figure = new_figure(2.9 * columns, 2.75 * rows + 0.3) if len(panels) > 1 else new_figure(6.2, 4.6)
     for index, (title, feasible) in enumerate(panels, start=1):
         axes = figure.add_subplot(rows, columns, index, projection="3d")
         if not isinstance(axes, Axes3D):  # pragma: no cover - matplotlib returns what was asked for
@@ -94,8 +97,8 @@ def workspace_panels(study: Study, panels: Sequence[tuple[str, BoolArray]]) -> F
         axes.set_title(fill(title, TITLE_WIDTH), fontsize=8.5)
     figure.legend(
         handles=[
-            Patch(color=BLUE, label="served"),
-            Patch(facecolor="none", edgecolor=RED, label="not served (small crosses)"),
+            Patch(color=BLUE, label=served),
+            Patch(facecolor="none", edgecolor=RED, label=f"not {served} (small crosses)"),
             Patch(color="black", label="frame anchors (triangles)"),
         ],
         loc="outside lower center",

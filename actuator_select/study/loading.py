@@ -1,6 +1,6 @@
 """From a study file to a study: parse, override, validate, build."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from copy import deepcopy
 from dataclasses import dataclass, replace
 from importlib import resources
@@ -185,6 +185,38 @@ def load_study(
     (216, 3)
     """
     return parse_study(study_text(study, overrides), place=str(study), limit=limit)
+
+
+def study_builder(
+    study: str | Path, overrides: Mapping[str, object] | None = None, *, limit: bool = True
+) -> Callable[[Mapping[str, object]], Study]:
+    """Read a study once, to build it many times with keys changed.
+
+    Parameters
+    ----------
+    study, overrides, limit
+        As for `load_study`.
+
+    Returns
+    -------
+    callable
+        From further overrides to the study, without its variants; its `text` is that of the unchanged one.
+
+    Raises
+    ------
+    UnknownName, InvalidStudy
+        As `load_study`; the callable raises `InvalidStudy`.
+    """
+    text = study_text(study, overrides)
+    place = f"study {str(study)!r}"
+    content = {key: value for key, value in _parsed(text, str(study)).unwrap().items() if key not in NOT_IN_VARIANTS}
+
+    def build(changed: Mapping[str, object]) -> Study:
+        own = deepcopy(content)
+        apply_overrides(own, changed)
+        return _build(own, text, place, Path(study).parent, limit=limit)
+
+    return build
 
 
 def parse_study(
