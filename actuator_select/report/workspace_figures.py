@@ -70,7 +70,11 @@ def share_bars(selection: Selection, actuators: Sequence[RankedActuator]) -> Fig
 
 @house_style
 def workspace_panels(
-    study: Study, panels: Sequence[tuple[str, BoolArray]], attainable: BoolArray | None = None
+    study: Study,
+    panels: Sequence[tuple[str, BoolArray]],
+    attainable: BoolArray | None = None,
+    *,
+    served: str = "served",
 ) -> Figure:
     """Feasible and infeasible positions in 3-D, one panel each, as figures 4, 5 and 8 of Filipović & Kevac 2018.
 
@@ -82,6 +86,8 @@ def workspace_panels(
         Title, and where the panel's actuator serves.
     attainable : (P,) array of bool, optional
         Where any drive could serve; other positions are drawn as such.
+    served : str
+        What the legend calls these positions.
 
     Returns
     -------
@@ -90,7 +96,8 @@ def workspace_panels(
     """
     columns = min(PANELS_PER_ROW, len(panels))
     rows = -(-len(panels) // columns)
-    figure = new_figure(2.9 * columns, 2.75 * rows + 0.3)
+    # A lone panel needs the width of its legend, and has the room to be large.
+    figure = new_figure(2.9 * columns, 2.75 * rows + 0.3) if len(panels) > 1 else new_figure(6.2, 4.6)
     for index, (title, feasible) in enumerate(panels, start=1):
         axes = figure.add_subplot(rows, columns, index, projection="3d")
         if not isinstance(axes, Axes3D):  # pragma: no cover - matplotlib returns what was asked for
@@ -99,8 +106,8 @@ def workspace_panels(
         axes.set_title(fill(title, TITLE_WIDTH), fontsize=8.5)
     figure.legend(
         handles=[
-            Patch(color=BLUE, label="served"),
-            Patch(facecolor="none", edgecolor=RED, label="not served (small crosses)"),
+            Patch(color=BLUE, label=served),
+            Patch(facecolor="none", edgecolor=RED, label=f"not {served} (small crosses)"),
             *([] if attainable is None or attainable.all() else [Patch(color=GREY, label="no drive could (dots)")]),
             Patch(color="black", label="frame anchors (triangles)"),
         ],

@@ -13,9 +13,11 @@ from actuator_select.model.workspace import OrientationRule, WorkspaceKind
 from actuator_select.selection.models import ModelCount, compare_models
 from actuator_select.selection.places import counted_positions, study_demand
 from actuator_select.selection.robot_sheet import RobotSheet, robot_sheet
-from actuator_select.selection.sweeps import SweepResult, sweep_study
+from actuator_select.selection.sweeps import Sweep, sweep_built
 from actuator_select.selection.workspaces import WorkspaceResult, evaluate_workspace
 from actuator_select.study import Study, Variant
+from actuator_select.study.loading import text_builder
+from actuator_select.study.sweeping import parse_sweep
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -40,7 +42,7 @@ class WorkspaceDossier:
         Minimax tension, infinite where infeasible, NaN at positions set apart; None under the pseudo-inverse. [N]
     variants : tuple of (Variant, WorkspaceResult)
         In the study's order.
-    sweeps : tuple of (str, str, SweepResult)
+    sweeps : tuple of (str, str, Sweep)
         Title, note and counts of the study's sweeps.
     interval : SupportInterval or None
         Feasible tensions of the counterbalance, where there is exactly one.
@@ -54,7 +56,7 @@ class WorkspaceDossier:
     models: tuple[ModelCount, ...]
     tension: FloatArray | None
     variants: tuple[tuple[Variant, WorkspaceResult], ...]
-    sweeps: tuple[tuple[str, str, SweepResult], ...]
+    sweeps: tuple[tuple[str, str, Sweep], ...]
     interval: SupportInterval | None
 
 
@@ -83,10 +85,15 @@ def build_workspace_dossier(study: Study, progress: Progress | None = None) -> W
         models=compare_models(study, ActuatorSet.from_figures([])),
         tension=minimax_tension(study),
         variants=tuple((one, evaluate_workspace(one.study)) for one in study.variants),
-        sweeps=tuple(
-            (one.title, one.note, sweep_study(study, one.keys, progress=progress)) for one in study.table.sweep
-        ),
+        sweeps=_sweeps(study, progress),
         interval=_interval(study),
+    )
+
+
+def _sweeps(study: Study, progress: Progress | None) -> tuple[tuple[str, str, Sweep], ...]:
+    build = text_builder(study.text, study.place, limit=False)
+    return tuple(
+        (one.title, one.note, sweep_built(build, parse_sweep(one.keys), progress=progress)) for one in study.table.sweep
     )
 
 

@@ -205,6 +205,14 @@ def workspace_record(result: WorkspaceResult) -> dict[str, object]:
     }
 
 
+def workspace_words(result: WorkspaceResult) -> str:
+    """Size of a workspace with its interval, ``112.8 m² (111.2 to 114.5)``; a dash for a single position."""
+    if result.measure is None or result.unit is None or result.interval is None:
+        return "–"
+    least, most = result.interval
+    return f"{result.measure:.4g} {result.unit.replace('2', '²').replace('3', '³')} ({least:.4g} to {most:.4g})"
+
+
 def workspace_basis(result: WorkspaceResult) -> dict[str, str]:
     """What the share is of, item by item.
 

@@ -1,6 +1,6 @@
 """From a study file to a study: parse, override, validate, build."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from copy import deepcopy
 from dataclasses import dataclass, replace
 from importlib import resources
@@ -67,6 +67,8 @@ class Study:
     ----------
     name : str
         Of the study.
+    place : str
+        File or name that the study was read from.
     text : str
         The study file, overrides included: what has to be kept to repeat the study.
     table : StudyTable
@@ -92,6 +94,7 @@ class Study:
     """
 
     name: str
+    place: str
     text: str
     table: StudyTable
     robot: CableRobot
@@ -185,6 +188,41 @@ def load_study(study: str | Path, overrides: Mapping[str, object] | None = None,
     return parse_study(study_text(study, overrides), place=str(study), limit=limit)
 
 
+def study_builder(
+    study: str | Path, overrides: Mapping[str, object] | None = None, *, limit: bool = True
+) -> Callable[[Mapping[str, object]], Study]:
+    """Read a study once, to build it many times with keys changed.
+
+    Parameters
+    ----------
+    study, overrides, limit
+        As for `load_study`.
+
+    Returns
+    -------
+    callable
+        From further overrides to the study, without its variants; its `text` is that of the unchanged one.
+
+    Raises
+    ------
+    UnknownName, InvalidStudy
+        As `load_study`; the callable raises `InvalidStudy`.
+    """
+    return text_builder(study_text(study, overrides), str(study), limit=limit)
+
+
+def text_builder(text: str, place: str, *, limit: bool = True) -> Callable[[Mapping[str, object]], Study]:
+    """As `study_builder`, for the text of a study at hand; `place` names it, and says where its files are."""
+    content = {key: value for key, value in _parsed(text, place).unwrap().items() if key not in NOT_IN_VARIANTS}
+
+    def build(changed: Mapping[str, object]) -> Study:
+        own = deepcopy(content)
+        apply_overrides(own, changed)
+        return _build(own, text, f"study {place!r}", place, limit=limit)
+
+    return build
+
+
 def parse_study(text: str, *, place: str, overrides: Mapping[str, object] | None = None, limit: bool = True) -> Study:
     """Validate the text of a study file and build the study.
 
@@ -212,10 +250,9 @@ def parse_study(text: str, *, place: str, overrides: Mapping[str, object] | None
     if overrides:
         text = _overridden(text, overrides, place)
     content = _parsed(text, place).unwrap()
-    folder = Path(place).parent
-    study = _build(content, text, f"study {place!r}", folder, limit=limit)
+    study = _build(content, text, f"study {place!r}", place, limit=limit)
     _refuse_moves_through_anchors(study, place)
-    return replace(study, variants=tuple(_variants(study, content, place, folder, limit=limit)))
+    return replace(study, variants=tuple(_variants(study, content, limit=limit)))
 
 
 def _refuse_moves_through_anchors(study: Study, place: str) -> None:
@@ -235,9 +272,9 @@ def _refuse_moves_through_anchors(study: Study, place: str) -> None:
         raise InvalidStudy(f"study {place!r} does not hold", problems)
 
 
-def _variants(study: Study, content: dict[str, object], place: str, folder: Path, *, limit: bool) -> Iterator[Variant]:
+def _variants(study: Study, content: dict[str, object], *, limit: bool) -> Iterator[Variant]:
     for index, one in enumerate(study.table.variant):
-        where = f"study {place!r}, variant[{index}]"
+        where = f"study {study.place!r}, variant[{index}]"
         for key in one.set:
             if key.split(".")[0].split("[")[0] not in VARIANT_TABLES:
                 problem = Problem(
@@ -252,23 +289,24 @@ def _variants(study: Study, content: dict[str, object], place: str, folder: Path
         except InvalidStudy as error:
             raise InvalidStudy(f"{where} does not hold", error.problems) from error
         yield Variant(
-            title=one.title, keys=tuple(one.set), study=_build(changed, study.text, where, folder, limit=limit)
+            title=one.title, keys=tuple(one.set), study=_build(changed, study.text, where, study.place, limit=limit)
         )
 
 
-def _build(content: dict[str, object], text: str, place: str, folder: Path, *, limit: bool) -> Study:
+def _build(content: dict[str, object], text: str, place: str, source: str, *, limit: bool) -> Study:
     try:
         table = StudyTable.model_validate(content)
     except ValidationError as error:
         raise InvalidStudy(f"{place} does not hold", study_problems(error, content)) from error
     workspace = table.workspace
-    robot, region = build_robot(table, place, folder)
+    robot, region = build_robot(table, place, Path(source).parent)
     orientations = _orientations(workspace)
     loads = tuple(_load(one) for one in table.payload)
     if limit:
         refuse_too_many_poses(table, robot.cables, len(orientations), place)
     study = Study(
         name=table.name,
+        place=source,
         text=text,
         table=table,
         robot=robot,
