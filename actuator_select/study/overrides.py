@@ -101,6 +101,9 @@ def apply_overrides(document: MutableMapping[str, Any], overrides: Mapping[str, 
             ) from error
     if "workspace.box_m" in overrides and "workspace.region" not in overrides:
         document["workspace"].pop("region", None)  # a box replaces the builder's region
+    for key, other in (("t5_n", "t5_range_n"), ("t5_range_n", "t5_n")):
+        if f"robot.{key}" in overrides and f"robot.{other}" not in overrides:
+            document["robot"].pop(other, None)  # the rope has one tension or a range of it
 
 
 def _steps(key: str) -> list[str | int]:
