@@ -98,9 +98,8 @@ def _sweeps(study: Study, progress: Progress | None) -> tuple[tuple[str, str, Sw
 
 
 def _kinds(study: Study, own: WorkspaceResult) -> tuple[WorkspaceResult, ...]:
-    asked = [kind for kind in WorkspaceKind if kind is not WorkspaceKind.TWIST]
-    if np.isfinite(study.robot.bounds.speed_max).any():
-        asked.append(WorkspaceKind.TWIST)
+    bounded_speed = bool(np.isfinite(study.robot.bounds.speed_max).any())
+    asked = [kind for kind in WorkspaceKind if kind is not WorkspaceKind.TWIST or bounded_speed]
     return tuple(own if kind is own.kind else evaluate_workspace(study, kind=kind, explain=False) for kind in asked)
 
 
