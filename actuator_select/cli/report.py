@@ -42,7 +42,8 @@ def command(
 ) -> None:
     """Write the design report, one self-contained HTML file.
 
-    Prints the ranking, then the path of the report.
+    Prints the ranking, then the path of the report. A study with `candidates.kind = "none"` gets a report on its robot's
+    workspace.
 
     \b
     Example:
@@ -50,28 +51,31 @@ def command(
     """
     from actuator_select._resources import replace_atomically
     from actuator_select.database import open_catalogue
-    from actuator_select.report import ReportDetails, render_report
+    from actuator_select.report import ReportDetails, render_report, render_workspace_report
     from actuator_select.selection import rank
     from actuator_select.study import load_study, parse_overrides
 
     loaded = load_study(study, parse_overrides(overrides), limit=not no_limit)
     path = output if output is not None else Path(f"{Path(study).stem}.html")
+    details = ReportDetails(
+        generated_at=datetime.now().astimezone(),
+        project=project,
+        author=author,
+        revision=revision,
+        command=_command_line(),
+    )
+    if loaded.table.candidates.kind == "none":
+        with console.progress("Evaluating") as progress:
+            page = render_workspace_report(loaded, details, progress)
+        replace_atomically(path, page)
+        click.echo(f"Report: {path.resolve()}")
+        return
     with open_catalogue(database) as catalogue:
         console.say_all(catalogue.notices)
         with console.progress("Evaluating") as progress:
             selection = rank(loaded, catalogue, where=where, require=require, progress=progress)
         console.say("Drawing the report …")
-        page = render_report(
-            selection,
-            catalogue,
-            ReportDetails(
-                generated_at=datetime.now().astimezone(),
-                project=project,
-                author=author,
-                revision=revision,
-                command=_command_line(),
-            ),
-        )
+        page = render_report(selection, catalogue, details)
     replace_atomically(path, page)
     print_ranking(selection, only_meeting=False)
     click.echo(f"Report: {path.resolve()}")

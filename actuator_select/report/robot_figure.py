@@ -11,7 +11,7 @@ from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 from mpl_toolkits.mplot3d.axes3d import Axes3D
 from scipy.spatial import ConvexHull, QhullError
 
-from actuator_select.model.arrays import FloatArray
+from actuator_select.model.arrays import FloatArray, IntArray
 from actuator_select.model.kinematics import rotation_matrix
 from actuator_select.model.robot import Freedom
 from actuator_select.report.style import BLUE, GREEN, GREY, ORANGE, RED, house_style, new_figure
@@ -149,12 +149,12 @@ def _body(axes: Axes3D, ends: FloatArray, scale: float) -> None:
     axes.scatter(*corners.T, s=26 if len(corners) == 1 else 7, color=ORANGE, depthshade=False)
 
 
-def _around(corners: FloatArray) -> FloatArray:
+def _around(corners: FloatArray) -> IntArray:
     """Order of the corners of a flat outline around its middle."""
     flat = corners - corners.mean(axis=0)
     plane = np.linalg.svd(flat)[2][:2]
     across = flat @ plane.T
-    order: FloatArray = np.argsort(np.arctan2(across[:, 1], across[:, 0]))
+    order: IntArray = np.argsort(np.arctan2(across[:, 1], across[:, 0]))
     return order
 
 
@@ -186,7 +186,8 @@ def _flat(study: Study, position: FloatArray) -> Figure:
     middle = (low + high) / 2.0
     for point, names in _numbers(frame, scale):
         outwards = np.sign(point - middle) * LABEL_DISTANCE * scale
-        axes.text(*(point + outwards), names, fontsize=8.0, ha="center", va="center")
+        x, y = point + outwards
+        axes.text(x, y, names, fontsize=8.0, ha="center", va="center")
     axes.set_xlim(low[0] - pad, high[0] + pad)
     axes.set_ylim(low[1] - pad, high[1] + pad)
     axes.set_aspect("equal")

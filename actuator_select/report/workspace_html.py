@@ -4,6 +4,7 @@ from typing import Any
 
 import numpy as np
 
+from actuator_select.model.demand import Progress
 from actuator_select.report.html import ReportDetails, environment, image, library_versions
 from actuator_select.report.margin_figures import margin_slices, planar_maps, tension_slices, value_slices
 from actuator_select.report.robot_figure import robot_figure
@@ -16,7 +17,9 @@ from actuator_select.selection.workspaces import workspace_basis, workspace_word
 from actuator_select.study import Study
 
 
-def render_workspace_report(study: Study, details: ReportDetails | None = None) -> str:
+def render_workspace_report(
+    study: Study, details: ReportDetails | None = None, progress: Progress | None = None
+) -> str:
     """Render the report on a robot's workspace.
 
     Parameters
@@ -25,13 +28,15 @@ def render_workspace_report(study: Study, details: ReportDetails | None = None) 
         With its variants, sweeps and notes.
     details : ReportDetails, optional
         Title block, date and command; the present time alone by default.
+    progress : callable, optional
+        Called with (sweep points done, sweep points).
 
     Returns
     -------
     str
         HTML without references to other files or to the network.
     """
-    dossier = build_workspace_dossier(study)
+    dossier = build_workspace_dossier(study, progress)
     return (
         environment()
         .get_template("workspace.html")

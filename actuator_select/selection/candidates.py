@@ -97,6 +97,11 @@ def find_candidates(study: Study, catalogue: Catalogue, where: str = "") -> Cand
     InvalidExpression
         If a condition cannot be read.
     """
+    if study.table.candidates.kind == "none":
+        raise NoCandidates(
+            f"study {study.name!r} asks for no actuators (candidates.kind); "
+            f"`actuator-select workspace {study.place}` finds where its robot can work"
+        )
     own = study.table.candidates.where
     rows = catalogue.rows("actuators", where=own)
     if where:

@@ -298,7 +298,7 @@ def _short_cables(robot: CableRobot, demand: Demand) -> list[Warned]:
         return []
     numbers = ", ".join(str(cable + 1) for cable in np.flatnonzero(short.any(axis=0)))
     several = "," in numbers
-    count = demand.positions_with(short.any(axis=1))
+    count = demand.positions_with(np.asarray(short.any(axis=1), dtype=np.bool_))
     return [
         Warned(
             code="short_cable",

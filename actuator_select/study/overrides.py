@@ -17,6 +17,8 @@ _REPLACES = {
     "workspace.box_m": "workspace.region",
     "robot.t5_n": "robot.t5_range_n",
     "robot.t5_range_n": "robot.t5_n",
+    "workspace.orientation_grid_deg": "workspace.orientations_rad",
+    "workspace.orientations_rad": "workspace.orientation_grid_deg",
 }
 _BARE_WORD = re.compile(r"[A-Za-z_][\w.-]*")
 _KEY_PART = re.compile(r"([A-Za-z0-9_-]+)((?:\[\d+\])*)")
