@@ -14,6 +14,8 @@ from matplotlib.figure import Figure
 from actuator_select.database import Catalogue
 from actuator_select.model.ranking import State, Verdict
 from actuator_select.report.drive_figures import simulation_figure, torque_speed_plane
+from actuator_select.report.margin_figures import margin_slices, tension_slices
+from actuator_select.report.robot_figure import robot_figure
 from actuator_select.report.style import data_uri
 from actuator_select.report.workspace_figures import share_bars, slice_panels, workspace_panels
 from actuator_select.selection import RankedActuator, Selection, wording
@@ -130,6 +132,8 @@ def _images(dossier: Dossier) -> dict[str, Any]:
         if "workspace.orientations_rad" in result.variant.keys and len(result.feasible) == len(study.positions)
     ]
     return {
+        "robot": image(robot_figure(study), "png"),
+        **_holding_images(dossier),
         "bars": image(share_bars(dossier.selection, [detail.actuator for detail in dossier.details]), "svg"),
         "workspaces": image(workspace_panels(study, panels, leading.attainable), "png"),
         "variants": image(workspace_panels(study, turned), "png") if turned else None,
@@ -139,6 +143,20 @@ def _images(dossier: Dossier) -> dict[str, Any]:
         "planes": [(detail, image(torque_speed_plane(detail), "svg")) for detail in dossier.details[:PLANES]],
         "moves": [image(simulation_figure(run), "svg") for _, run in dossier.moves],
         "leading": leading.actuator.name,
+    }
+
+
+def _holding_images(dossier: Dossier) -> dict[str, Any]:
+    """What it takes to hold the platform, whatever drives it; nothing under a model that lets cables push."""
+    result = dossier.selection.result
+    demand = result.evaluation.demand
+    if demand.tensions is not None or not demand.attainable.any():
+        return {"margin": None, "tension": None}
+    tension = result.spread(demand.by_position(demand.force).max(axis=1))
+    margin = result.spread(demand.by_position(demand.margin).min(axis=1))
+    return {
+        "margin": image(margin_slices(result.study, margin), "svg"),
+        "tension": image(tension_slices(result.study, tension), "svg"),
     }
 
 
