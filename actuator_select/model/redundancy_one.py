@@ -221,10 +221,11 @@ def tensions_for_unstretched_lengths(
     ----------
     Eq. 22 in Qi, Jamshidifar & Khajepour 2020, arXiv:2012.12387.
     """
-    with np.errstate(divide="ignore"):
-        shorter, longer = lengths / greatest - 1.0, lengths / least - 1.0
     stretches = np.isfinite(axial_stiffness)
-    stiffness = np.where(stretches, axial_stiffness, 0.0)
-    lower = np.where(stretches, stiffness * shorter, np.where(shorter <= 0.0, -np.inf, np.inf))
-    upper = np.where(stretches, stiffness * longer, np.where(longer >= 0.0, np.inf, -np.inf))
+    stiffness = np.where(stretches, axial_stiffness, 1.0)
+    with np.errstate(divide="ignore"):
+        lower, upper = stiffness * (lengths / greatest - 1.0), stiffness * (lengths / least - 1.0)
+    holds = (lower <= 0.0) & (upper >= 0.0)  # of a cable that does not stretch: any tension does, or none
+    lower = np.where(stretches, lower, np.where(holds, -np.inf, np.inf))
+    upper = np.where(stretches, upper, np.where(holds, np.inf, -np.inf))
     return lower, upper
