@@ -39,7 +39,7 @@ class VoltageDemand:
     speed : float
         Radius of the ball of velocities. [m/s]
     inverse_length : (P, k) array
-        1/l, or 0 where the centripetal term is left out. [1/m]
+        1/l, or 0 where the swing term is left out or counted in `acceleration_extra`. [1/m]
     directions : (P, k, 3) array or None
         Cable directions, where velocities are sampled and the centripetal term counts, or have the direction of the
         acceleration; None where extremes suffice.
@@ -77,8 +77,6 @@ class VoltageDemand:
         mass = line.reflected_mass[:, None, None]
         middle = self.force[chunk] + mass * self.acceleration[chunk]
         extra = self.force_extra[chunk] + mass * self.acceleration_extra[chunk]
-        if self.straight:
-            return np.asarray((self._along_lines(line, middle, chunk) + extra).max(axis=-1), dtype=np.float64)
         reach = np.zeros_like(middle)
         for axis in range(3):
             change = self.force_reach[chunk, :, axis] + mass * self.acceleration_reach[chunk, :, axis]
@@ -86,7 +84,10 @@ class VoltageDemand:
         if self.shape is SetShape.BALL:
             reach = np.sqrt(reach)
         up, down = self._velocity_terms(line, chunk)
-        return np.asarray((np.maximum(up + middle, down - middle) + reach + extra).max(axis=-1), dtype=np.float64)
+        found = np.maximum(up + middle, down - middle) + reach
+        if self.straight:  # neither of the two bounds is below the other everywhere
+            found = np.minimum(found, self._along_lines(line, middle, chunk))
+        return np.asarray((found + extra).max(axis=-1), dtype=np.float64)
 
     def _along_lines(self, line: VoltageLine, middle: FloatArray, chunk: slice) -> FloatArray:
         """Greatest magnitude where v = V e and a = ±A e for any direction e; the swing term at its worst, (C, p, k)."""
@@ -101,13 +102,14 @@ class VoltageDemand:
             minus += (fast - change) ** 2
         reach = np.sqrt(np.maximum(plus, minus))
         swing = mass * self.speed**2 * self.inverse_length[chunk]
-        worst: FloatArray = reach + np.maximum(middle, swing - middle)
+        turning = self.speed_in[chunk] - self.speed * np.linalg.norm(self.directions[chunk], axis=-1)
+        worst: FloatArray = reach + damping * np.maximum(0.0, turning) + np.maximum(middle, swing - middle)
         return worst
 
     def _velocity_terms(self, line: VoltageLine, chunk: slice) -> tuple[FloatArray, FloatArray]:
         """Greatest of ±(damping · v - reflected_mass · centripetal), each (C, p, k)."""
         mass, damping = line.reflected_mass[:, None, None], line.damping[:, None, None]
-        if self.directions is not None:
+        if self.directions is not None and len(self.velocities):
             speeds = self.directions[chunk] @ self.velocities.T
             across = (self.velocities**2).sum(axis=1) - speeds**2
             terms = damping[..., None] * speeds - mass[..., None] * (across * self.inverse_length[chunk, :, None])
@@ -230,11 +232,11 @@ def _reach_of_acceleration(demand: Demand) -> FloatArray:
 def _swing(demand: Demand) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Swing coefficient, middle and half range of the cable's acceleration, each (Q, m).
 
-    Of a platform that does not turn the swing term is (V² - v²)/l, coupled with the cable's speed, and stays apart;
-    else its range is taken as independent: a safe bound.
+    Over a ball of velocities of a platform that does not turn the swing term is (V² - v²)/l, coupled with the cable's
+    speed, and stays apart; else its range is taken as independent: a safe bound.
     """
     motion = demand.motion
-    if motion.turns or motion.kind is MotionKind.LISTED:
+    if motion.turns or motion.kind is MotionKind.LISTED or motion.velocity_shape is SetShape.BOX:
         middle = demand.acceleration_middle - (demand.swing_min + demand.swing_max) / 2.0
         extra = demand.acceleration_reach + (demand.swing_max - demand.swing_min) / 2.0
         return np.zeros_like(demand.lengths), middle, extra

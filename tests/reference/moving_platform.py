@@ -199,8 +199,8 @@ def climb(
 ) -> float:
     """Largest value that random steps of shrinking size reach from the (4, 3) start."""
     best, at = -np.inf, start
-    for size in np.geomspace(0.3, 1e-4, 40):
-        steps = at + size * generator.normal(size=(40, 4, 3)) * (generator.random((40, 4, 1)) < 0.6)
+    for size in np.geomspace(0.3, 1e-4, 30):
+        steps = at + size * generator.normal(size=(30, 4, 3)) * (generator.random((30, 4, 1)) < 0.6)
         steps[0] = at
         values = objective(limits.into(steps))
         if values.max() > best:
