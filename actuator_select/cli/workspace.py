@@ -12,7 +12,10 @@ from actuator_select.cli import console, options
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+    from actuator_select.model.tension import TensionModel
+    from actuator_select.model.workspace import OrientationRule, WorkspaceKind
     from actuator_select.selection.workspaces import WorkspaceResult
+    from actuator_select.study import Study
 
 
 @click.command("workspace")
@@ -26,6 +29,20 @@ if TYPE_CHECKING:
     metavar="FILE",
     help="Draw the workspace to a .svg, .png or .pdf file.",
 )
+@click.option(
+    "--counterbalance-interval",
+    is_flag=True,
+    help="Find the feasible tensions of a counterbalance rope at every position instead: a constant tension, a range "
+    "that is controlled, what would serve all.",
+)
+@click.option(
+    "--counterbalance",
+    type=click.IntRange(min=1),
+    default=1,
+    show_default=True,
+    metavar="NUMBER",
+    help="Which one, with --counterbalance-interval; the others keep their tensions.",
+)
 @options.no_limit_option
 def command(
     study: str,
@@ -35,6 +52,8 @@ def command(
     overrides: tuple[str, ...],
     output_format: str,
     plot: Path | None,
+    counterbalance_interval: bool,
+    counterbalance: int,
     no_limit: bool,
 ) -> None:
     """Find where the robot can work, whatever drives it.
@@ -69,12 +88,19 @@ def command(
 
     draw = options.plot_writer(plot)
     loaded = load_study(study, parse_overrides(overrides), limit=not no_limit)
+    model = None if tension_model is None else TensionModel(tension_model)
+    if counterbalance_interval:
+        if plot is not None:
+            raise click.UsageError("--plot draws a workspace, not --counterbalance-interval; give one of them")
+        asked = (WorkspaceKind(kind), OrientationRule(orientations), model)
+        _show_tensions(loaded, counterbalance - 1, asked, output_format)
+        return
     with console.progress("Finding the workspace") as progress:
         result = evaluate_workspace(
             loaded,
             kind=WorkspaceKind(kind),
             over=OrientationRule(orientations),
-            tension_model=None if tension_model is None else TensionModel(tension_model),
+            tension_model=model,
             progress=progress,
         )
     if plot is not None:
@@ -86,6 +112,23 @@ def command(
     else:
         print_workspace(result)
         console.say(f"Next: {_next_command(result, study)}")
+
+
+def _show_tensions(
+    study: "Study", rope: int, asked: "tuple[WorkspaceKind, OrientationRule, TensionModel | None]", output_format: str
+) -> None:
+    from actuator_select.cli.counterbalance import emit_intervals, print_tensions
+    from actuator_select.selection.support_intervals import rope_record, rope_tensions
+
+    kind, over, model = asked
+    with console.progress("Finding the tensions") as progress:
+        found = rope_tensions(study, rope=rope, kind=kind, over=over, tension_model=model, progress=progress)
+    if output_format == "json":
+        console.emit_json(rope_record(found))
+    elif output_format == "csv":
+        emit_intervals(found)
+    else:
+        print_tensions(found)
 
 
 def _picture(result: "WorkspaceResult") -> "Figure":

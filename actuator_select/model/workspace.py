@@ -141,7 +141,7 @@ def judge_positions(  # noqa: PLR0913 - as `compute_demand`, and three choices
         Nothing else of the poses is kept, so that memory does not grow with the demand of all.
     """
     considered = over.considered(orientations)
-    wrenches, motion = _asked(kind, wrenches[: len(considered)], motion)
+    wrenches, motion = what_is_asked(kind, wrenches[: len(considered)], motion)
     cases = len(considered) * len(wrenches[0]) * motion.cases
     step = max(1, CABLE_POSES_AT_ONCE // (robot.cables * cases))
     parts = []
@@ -164,10 +164,10 @@ def judge_positions(  # noqa: PLR0913 - as `compute_demand`, and three choices
     )
 
 
-def _asked(
+def what_is_asked(
     kind: WorkspaceKind, wrenches: Sequence[Sequence[RequiredWrench]], motion: MotionSet
 ) -> tuple[Sequence[Sequence[RequiredWrench]], MotionSet]:
-    """What the kind of workspace leaves of the loads and the motion."""
+    """Loads and motion that a kind of workspace looks at: at rest but for those that ask for motion."""
     if kind is WorkspaceKind.STATIC:
         calm = [[replace(one, external_reach=np.zeros(6)) for one in loads] for loads in wrenches]
         return calm, motion.at_rest()

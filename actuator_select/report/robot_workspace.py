@@ -2,10 +2,10 @@
 
 from collections.abc import Sequence
 from itertools import product
+from typing import TYPE_CHECKING
 
 import numpy as np
 from matplotlib import colormaps
-from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
@@ -19,11 +19,15 @@ from actuator_select.report.workspace_figures import workspace_panels
 from actuator_select.selection.sweeps import Sweep, SweepPoint
 from actuator_select.selection.workspaces import WorkspaceResult
 
+if TYPE_CHECKING:
+    from matplotlib.artist import Artist
+
 WIDTH = 7.5  # inches
 OUTSIDE, INSIDE, APART = 0, 1, 2
 FILLS = ("#F3DDD0", "#A9CBE3", "#D8D8D8")  # outside, inside, set apart: light, so that lines stand out on them
 LINES = "#31506B"
 MANY = 8  # values of a key; two keys with more are drawn as a map
+MOST_LINES = 12  # that a legend names
 DASHES = ("-", "--", "-.", ":")
 _MEASURES = {"": "feasible share", "m": "length, estimated", "m2": "area, estimated", "m3": "volume, estimated"}
 
@@ -122,28 +126,31 @@ def sweep_figure(sweep: Sweep) -> Figure:
     unit = superscript(sweep.points[0].measure_unit or "")
     name = f"{_MEASURES[sweep.points[0].measure_unit or '']} [{unit or '%'}]"
     first, further = sweep.axes[0], sweep.axes[1:]
-    table = values.reshape(len(first.values), -1)
-    figure = new_figure(WIDTH, 4.2)
-    axes = figure.subplots()
-    axes.set_xlabel(first.key)
-    axes.set_title(f"{sweep.study.name}: {sweep.kind.value} workspace, {sweep.tension_model.value}", fontsize=9.0)
-    if len(further) == 1 and min(len(first.values), len(further[0].values)) > MANY:
-        shaded = axes.pcolormesh(first.values, further[0].values, table.T, shading="nearest", rasterized=True)
-        axes.set_ylabel(further[0].key)
-        figure.colorbar(shaded, ax=axes, label=name)
-        return figure
-    axes.set_ylabel(name)
+    order = np.argsort(first.values)
+    along, table = np.array(first.values)[order], values.reshape(len(order), -1)[order]
     labels = [
         ", ".join(f"{axis.key} = {value:g}" for axis, value in zip(further, one, strict=True))
         for one in product(*(axis.values for axis in further))
     ]
+    figure = new_figure(WIDTH, 4.2)
+    axes = figure.subplots()
+    axes.set_xlabel(first.key)
+    axes.set_title(f"{sweep.study.name}: {sweep.kind.value} workspace, {sweep.tension_model.value}", fontsize=9.0)
+    if len(further) == 1 and (len(labels) > MOST_LINES or min(len(order), len(labels)) > MANY):
+        across = np.argsort(further[0].values)
+        heights = np.array(further[0].values)[across]
+        shaded = axes.pcolormesh(along, heights, table.T[across], shading="nearest", rasterized=True)
+        axes.set_ylabel(further[0].key)
+        figure.colorbar(shaded, ax=axes, label=name)
+        return figure
+    axes.set_ylabel(name)
     shades = colormaps["viridis"](np.linspace(0.0, 0.9, max(len(labels), 2)))
     for column, label in enumerate(labels):
         colour = BLUE if len(labels) == 1 else shades[column]
         dash = DASHES[column % len(DASHES)]
-        axes.plot(first.values, table[:, column], color=colour, linestyle=dash, marker="o", markersize=2.5, label=label)
+        axes.plot(along, table[:, column], color=colour, linestyle=dash, marker="o", markersize=2.5, label=label)
     axes.grid(visible=True, color="#E2E2E2", linewidth=0.6)
-    if further:
+    if further and len(labels) <= MOST_LINES:
         figure.legend(loc="outside lower center", ncols=3)
     return figure
 
