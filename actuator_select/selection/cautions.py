@@ -63,6 +63,11 @@ def demand_warnings(demand: Demand, *, apart: int = 0) -> tuple[Warned, ...]:
             "a cable would have to be longer than cables.length_max_m; such positions count as not served",
         ),
         (
+            "zero_length_cable",
+            np.any(demand.lengths <= 0.0, axis=1),
+            "a cable has no length and so no direction; such positions count as not served",
+        ),
+        (
             "rank_deficient",
             demand.rank_deficient,
             "the structure matrix is short of rank: no tensions can balance every force and moment on the platform",

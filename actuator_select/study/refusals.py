@@ -115,11 +115,13 @@ def _nothing_to_hold(study: "Study") -> list[Problem]:
 
 
 def _cables_without_length(study: "Study") -> list[Problem]:
-    """A grid position in an anchor; positions nearer than a stated least length are set apart instead."""
+    """A grid position in an anchor, unless the study states a least length: 0 says that such positions are known of."""
     robot = study.robot
+    if study.table.cables.length_min_m is not None:
+        return []
     for orientation in study.orientations:
         ends = robot.frame_anchors - robot.platform_anchors @ rotation_matrix(orientation).T
-        for cable in np.flatnonzero(robot.bounds.length_min < LEAST_CABLE_LENGTH):
+        for cable in range(robot.cables):
             nearest = _nearest(study.positions, ends[cable])
             if np.linalg.norm(nearest - ends[cable]) < LEAST_CABLE_LENGTH:
                 x, y, z = nearest
@@ -127,7 +129,9 @@ def _cables_without_length(study: "Study") -> list[Problem]:
                     Problem(
                         place="workspace",
                         value=f"at ({x:g}, {y:g}, {z:g}) m cable {cable + 1} has no length and so no direction",
-                        expected="positions off the anchors, or cables.length_min_m, which sets near ones apart [m]",
+                        expected="positions off the anchors [m]",
+                        remedy="move the box or the grid; or state cables.length_min_m, which sets nearer positions apart "
+                        "(0: they count as not served)",
                     )
                 ]
     return []
