@@ -20,8 +20,17 @@ from actuator_select._version import __version__
 if TYPE_CHECKING:
     from actuator_select.database import Catalogue, open_catalogue
     from actuator_select.errors import ActuatorSelectError
-    from actuator_select.report import ReportDetails, render_report
-    from actuator_select.selection import Selection, Simulation, StudyEvaluation, evaluate, rank, simulate
+    from actuator_select.report import ReportDetails, render_report, render_workspace_report
+    from actuator_select.selection import (
+        Selection,
+        Simulation,
+        StudyEvaluation,
+        WorkspaceResult,
+        evaluate,
+        evaluate_workspace,
+        rank,
+        simulate,
+    )
     from actuator_select.study import Study, load_study
 
 __all__ = [
@@ -32,12 +41,15 @@ __all__ = [
     "Simulation",
     "Study",
     "StudyEvaluation",
+    "WorkspaceResult",
     "__version__",
     "evaluate",
+    "evaluate_workspace",
     "load_study",
     "open_catalogue",
     "rank",
     "render_report",
+    "render_workspace_report",
     "simulate",
 ]
 
@@ -49,11 +61,14 @@ _HOMES = {
     "Simulation": "selection",
     "Study": "study",
     "StudyEvaluation": "selection",
+    "WorkspaceResult": "selection",
     "evaluate": "selection",
+    "evaluate_workspace": "selection",
     "load_study": "study",
     "open_catalogue": "database",
     "rank": "selection",
     "render_report": "report",
+    "render_workspace_report": "report",
     "simulate": "selection",
 }
 

@@ -1,7 +1,7 @@
 """A selection as one self-contained HTML page."""
 
 import platform
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from datetime import datetime
 from importlib.metadata import version
@@ -16,10 +16,13 @@ from actuator_select.model.ranking import State, Verdict
 from actuator_select.report.drive_figures import simulation_figure, torque_speed_plane
 from actuator_select.report.margin_figures import margin_slices, tension_slices
 from actuator_select.report.robot_figure import robot_figure
+from actuator_select.report.robot_workspace import sweep_figure
 from actuator_select.report.style import data_uri
 from actuator_select.report.workspace_figures import share_bars, slice_panels, workspace_panels
 from actuator_select.selection import RankedActuator, Selection, wording
 from actuator_select.selection.dossier import Dossier, build_dossier
+from actuator_select.selection.sweeps import Sweep
+from actuator_select.selection.workspace_dossier import study_sweeps
 
 SHORTLIST = 3
 PLANES = 3  # actuators whose torque-speed plane and slices are drawn
@@ -88,6 +91,7 @@ def render_report(selection: Selection, catalogue: Catalogue, details: ReportDet
             State=State,
             Verdict=Verdict,
             images=_images(dossier),
+            sweeps=sweep_pictures(study_sweeps(selection.study)),
             versions=library_versions(),
             sources=_sources(dossier),
         )
@@ -106,6 +110,11 @@ def environment() -> Environment:
     templates.filters["figure"] = _figure_value
     templates.filters["unit"] = lambda unit: str(unit).replace("2", "²").replace("3", "³")
     return templates
+
+
+def sweep_pictures(sweeps: Sequence[tuple[str, str, Sweep]]) -> list[tuple[str, str, Markup]]:
+    """Title, note and picture of every sweep."""
+    return [(title, note, image(sweep_figure(result), "svg")) for title, note, result in sweeps]
 
 
 def _pushing(selection: Selection) -> int:

@@ -5,10 +5,10 @@ from typing import Any
 import numpy as np
 
 from actuator_select.model.demand import Progress
-from actuator_select.report.html import ReportDetails, environment, image, library_versions
+from actuator_select.report.html import ReportDetails, environment, image, library_versions, sweep_pictures
 from actuator_select.report.margin_figures import margin_slices, planar_maps, tension_slices, value_slices
 from actuator_select.report.robot_figure import robot_figure
-from actuator_select.report.robot_workspace import sweep_figure, workspace_map
+from actuator_select.report.robot_workspace import workspace_map
 from actuator_select.report.workspace_figures import workspace_panels
 from actuator_select.selection import wording
 from actuator_select.selection.robot_record import DISTRIBUTION, robot_items
@@ -52,6 +52,7 @@ def render_workspace_report(
             words=wording,
             describe=workspace_words,
             images=_images(dossier),
+            sweeps=sweep_pictures(dossier.sweeps),
             versions=library_versions(),
         )
     )
@@ -76,7 +77,6 @@ def _images(dossier: WorkspaceDossier) -> dict[str, Any]:
         if dossier.tension is not None and np.isfinite(dossier.tension).any()
         else None,
         "variants": image(maps(study, alike), "png") if alike else None,
-        "sweeps": [image(sweep_figure(result), "svg") for _, _, result in dossier.sweeps],
         "interval": [
             image(value_slices(study, values, label), "svg")
             for values, label in (

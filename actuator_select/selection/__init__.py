@@ -13,6 +13,7 @@ from actuator_select.selection.selection import (
     rank,
 )
 from actuator_select.selection.simulation import Simulation, simulate
+from actuator_select.selection.workspaces import WorkspaceResult, evaluate_workspace
 
 __all__ = [
     "CheckVerdict",
@@ -23,9 +24,11 @@ __all__ = [
     "Simulation",
     "StudyEvaluation",
     "Warned",
+    "WorkspaceResult",
     "check_catalogue",
     "check_rows",
     "evaluate",
+    "evaluate_workspace",
     "rank",
     "selection_record",
     "simulate",

@@ -7,10 +7,11 @@ import numpy as np
 
 from actuator_select.errors import InvalidInput, Problem
 from actuator_select.model.actuation import ROUNDING, Check, torque_line, voltage_line
-from actuator_select.model.arrays import FloatArray, IntArray
+from actuator_select.model.arrays import BoolArray, FloatArray, IntArray
 from actuator_select.model.components import ActuatorSet
 from actuator_select.model.demand import Demand, Progress, compute_demand
 from actuator_select.model.evaluation import Evaluation, position_utilisation
+from actuator_select.model.grid_measure import connected_positions
 from actuator_select.model.joint import DriveLines, can_be_tested, exact_positions
 from actuator_select.model.kinematics import too_near
 from actuator_select.study import Study
@@ -115,6 +116,49 @@ def _inside(study: Study, box: FloatArray) -> FloatArray:
     inside = ((grid >= box[:, 0]) & (grid <= box[:, 1])).all(axis=1)
     corners = np.where(CORNERS, box[:, 1], box[:, 0])
     return np.vstack([corners, box.mean(axis=1), grid[inside]])
+
+
+def position_verdicts(evaluation: Evaluation, index: int, checks: Iterable[Check]) -> BoolArray:
+    """Where every evaluated check of one actuator holds and some drive could serve, at the positions that count, (n,)."""
+    known = [check for check in checks if evaluation.checks[check].evaluated[index]]
+    used = position_utilisation(evaluation.demand, evaluation.actuators.take([index]), known)
+    holds = [values[0] <= 1.0 + ROUNDING for values in used.values()]
+    return np.asarray(np.logical_and.reduce([evaluation.demand.attainable_positions, *holds]), dtype=np.bool_)
+
+
+def connected_percents(
+    study: Study, evaluation: Evaluation, counted: IntArray, indices: Iterable[int]
+) -> dict[int, float]:
+    """Share of an actuator's feasible positions that is connected to the home position, for a few. [%]
+
+    Parameters
+    ----------
+    study : Study
+        With or without `workspace.home_m`.
+    evaluation : Evaluation
+        At the positions that count.
+    counted : (n,) array
+        Their indices.
+    indices : iterable of int
+        Actuators.
+
+    Returns
+    -------
+    dict of int to float
+        Empty without a home position.
+    """
+    table = study.table.workspace
+    if table.home_m is None:
+        return {}
+    home = int(((study.positions - np.array(table.home_m)) ** 2).sum(axis=1).argmin())
+    shares = {}
+    for index in indices:
+        feasible = np.zeros(len(study.positions), dtype=np.bool_)
+        feasible[counted] = position_verdicts(evaluation, int(index), study.checks)
+        total = int(feasible.sum())
+        connected = connected_positions(feasible, table.points, home) if total else 0
+        shares[int(index)] = 100.0 * connected / total if total else 0.0
+    return shares
 
 
 def exact_counts(study: Study, evaluation: Evaluation, indices: Iterable[int]) -> dict[int, int]:

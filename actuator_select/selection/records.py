@@ -51,6 +51,7 @@ def _actuator_record(actuator: RankedActuator, poses: int) -> dict[str, Any]:
         "feasible_poses": actuator.feasible_poses,
         "feasible_is_upper_bound": actuator.is_upper_bound,
         "feasible_poses_exact": actuator.exact_poses,
+        "connected_percent": None if actuator.connected_percent is None else round(actuator.connected_percent, 2),
         "must_serve_missed": list(actuator.missed),
         "poses": poses,
         "verdict": actuator.verdict.value,

@@ -14,7 +14,14 @@ from actuator_select.model.evaluation import Evaluation, evaluate_actuators, mis
 from actuator_select.model.ranking import State, Verdict, meets_share, ranking_order, verdicts
 from actuator_select.selection.candidates import Candidates, find_candidates
 from actuator_select.selection.cautions import Warned, demand_warnings
-from actuator_select.selection.places import EXACT, counted_positions, exact_counts, missed_places, study_demand
+from actuator_select.selection.places import (
+    EXACT,
+    connected_percents,
+    counted_positions,
+    exact_counts,
+    missed_places,
+    study_demand,
+)
 from actuator_select.study import Study
 
 if TYPE_CHECKING:
@@ -74,6 +81,8 @@ class RankedActuator:
         All four; `NOT_APPLICABLE` where the study does not ask for a check.
     exact_poses : int or None
         Positions by the exact joint test; None where it was not made.
+    connected_percent : float or None
+        Share of these positions that is connected to the home position; None where it was not looked for. [%]
     missed : tuple of str
         Places of `requirement.must_serve` that are not served, or not known to be.
     """
@@ -86,6 +95,7 @@ class RankedActuator:
     feasible_percent: float
     checks: dict[Check, CheckVerdict]
     exact_poses: int | None = None
+    connected_percent: float | None = None
     missed: tuple[str, ...] = ()
 
     @property
@@ -327,6 +337,7 @@ def rank_result(result: StudyEvaluation, *, require: float | None, fingerprint: 
         check: missing_figures(evaluation.actuators, check, result.study.tension_model) for check in evaluation.checks
     }
     exact = exact_counts(result.study, evaluation, order[:EXACT])
+    connected = connected_percents(result.study, evaluation, result.counted, order[:EXACT])
     ranked = tuple(
         RankedActuator(
             index=int(index),
@@ -337,6 +348,7 @@ def rank_result(result: StudyEvaluation, *, require: float | None, fingerprint: 
             feasible_percent=100.0 * float(evaluation.positions[index]) / result.poses,
             checks={check: _check_verdict(result, check, int(index), required, missing) for check in Check},
             exact_poses=exact.get(int(index)),
+            connected_percent=connected.get(int(index)),
             missed=missed[index].titles,
         )
         for index in order

@@ -230,6 +230,8 @@ def summary(selection: Selection) -> list[str]:
     }[best.verdict]
     exact = f", {best.exact_poses} by the exact joint test" if best.exact_poses is not None else ""
     missed = f"; not served: {', '.join(best.missed)}" if best.missed else ""
+    if best.connected_percent is not None:
+        missed += f"; {best.connected_percent:.1f} % of its positions are connected to the home position"
     return [
         attainable,
         f"Best candidate: {best.name} serves {share(best, total)}{exact}, and {done}{missed}.",

@@ -85,12 +85,13 @@ def build_workspace_dossier(study: Study, progress: Progress | None = None) -> W
         models=compare_models(study, ActuatorSet.from_figures([])),
         tension=minimax_tension(study),
         variants=tuple((one, evaluate_workspace(one.study)) for one in study.variants),
-        sweeps=_sweeps(study, progress),
+        sweeps=study_sweeps(study, progress),
         interval=_interval(study),
     )
 
 
-def _sweeps(study: Study, progress: Progress | None) -> tuple[tuple[str, str, Sweep], ...]:
+def study_sweeps(study: Study, progress: Progress | None = None) -> tuple[tuple[str, str, Sweep], ...]:
+    """Title, note and counts of the sweeps that a study asks of its report."""
     build = text_builder(study.text, study.place, limit=False)
     return tuple(
         (one.title, one.note, sweep_built(build, parse_sweep(one.keys), progress=progress)) for one in study.table.sweep
