@@ -136,7 +136,8 @@ def robot_items(sheet: RobotSheet) -> dict[str, str]:
         "cables": f"{robot.cables}, redundancy {beyond} ({compared} the {robot.degrees_of_freedom} equations)",
     }
     if robot.platform.mass > 0.0:
-        items["platform"] = f"{robot.platform.mass:g} kg, centre of gravity {_vector(robot.platform.centre_of_gravity)} m"
+        centre = _vector(robot.platform.centre_of_gravity)
+        items["platform"] = f"{robot.platform.mass:g} kg, centre of gravity {centre} m"
     items["loads"] = "; ".join(
         f"{load.title}: {load.body.mass:g} kg{_pushed('N', load.force_lower, load.force_upper)}"
         f"{_pushed('N m', load.moment_lower, load.moment_upper)}"
@@ -146,7 +147,9 @@ def robot_items(sheet: RobotSheet) -> dict[str, str]:
         items[f"rope {number}"] = _rope_words(rope)
     items |= {
         "tensions": f"{_tension_words(robot)}; {study.tension_model.value}",
-        "box": ", ".join(f"{axis} {low:g} to {high:g} m" for axis, (low, high) in zip("xyz", study.region, strict=True)),
+        "box": ", ".join(
+            f"{axis} {low:g} to {high:g} m" for axis, (low, high) in zip("xyz", study.region, strict=True)
+        ),
         "rank": f"full ({sheet.least_rank}) at every position"
         if not sheet.rank_short
         else f"short at {count_of(sheet.rank_short, sheet.positions)} positions, down to {sheet.least_rank}",
