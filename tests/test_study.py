@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from actuator_select.errors import ActuatorSelectError, InvalidStudy, UnknownName
 from actuator_select.model.actuation import Check
-from actuator_select.study import builtin_studies, load_study, parse_overrides, parse_study, starter_text, study_text
+from actuator_select.study import builtin_studies, load_study, parse_overrides, parse_study, study_text, template_text
 
 SAMPLED = {
     "set": "sampled",
@@ -37,7 +37,7 @@ def test_every_builtin_study_says_what_it_is(name: str) -> None:
 
 
 def test_the_starter_study_works_as_it_stands() -> None:
-    study = parse_study(starter_text('my "robot"'), place="starter")
+    study = parse_study(template_text('my "robot"'), place="starter")
     assert study.name == 'my "robot"'
     assert study.robot.cables == 4
 
@@ -118,7 +118,7 @@ def test_a_file_that_is_not_toml_is_refused_with_its_line(tmp_path: Path) -> Non
 
 
 def test_explicit_cables_need_a_box() -> None:
-    text = starter_text("robot").replace("box_m =", "# box_m =").replace('# region = "builder"', 'region = "builder"')
+    text = template_text("robot").replace("\nbox_m = ", "\nregion = \"builder\"  # ")
     with pytest.raises(InvalidStudy, match="box_m"):
         parse_study(text, place="robot")
 

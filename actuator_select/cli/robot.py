@@ -100,18 +100,13 @@ def print_robot(sheet: "RobotSheet") -> None:
     )
     click.echo(
         "Largest force: on the frame, towards the platform, standing still where that can be held; tensions by the\n"
-        f"{DISTRIBUTION[sheet.study.tension_model]}. Motion comes on top: a frame for the bounds of the tensions bears it."
+        f"{DISTRIBUTION[sheet.study.tension_model]}.\n"
+        "Motion comes on top; a frame that bears the greatest tensions allowed bears it."
     )
     shared = [point for point in sheet.frame_points if len(point.cables) > 1]
     if shared:
         console.emit_table(
-            [
-                "cables",
-                "frame point they share [m]",
-                "largest force together [N]",
-                "its direction",
-                "with the platform at [m]",
-            ],
+            ["cables", "frame point they share [m]", "largest force together [N]", *header[6:8]],
             [
                 [
                     " and ".join(str(number) for number in point.cables),

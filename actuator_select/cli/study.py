@@ -50,7 +50,7 @@ def show(study: str, overrides: tuple[str, ...]) -> None:
     default="camera-4",
     show_default=True,
     metavar="NAME",
-    help="Family of robots: camera-4, planar-4, six-six, suspended-8, constrained-8, cpr8, or anchors (with --anchors).",
+    help="Family: camera-4, planar-4, six-six, suspended-8, constrained-8, cpr8, or anchors (with --anchors).",
 )
 @click.option("--hall", type=Vector(), help="Length, width and height of the frame [m].")
 @click.option("--platform", type=Vector(), help="Length, width and height of the platform [m].")

@@ -7,6 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Polygon, Rectangle
+from matplotlib.ticker import MaxNLocator
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 from mpl_toolkits.mplot3d.axes3d import Axes3D
 from scipy.spatial import ConvexHull, QhullError
@@ -14,14 +15,18 @@ from scipy.spatial import ConvexHull, QhullError
 from actuator_select.model.arrays import FloatArray, IntArray
 from actuator_select.model.kinematics import rotation_matrix
 from actuator_select.model.robot import Freedom
-from actuator_select.report.style import BLUE, GREEN, GREY, ORANGE, RED, house_style, new_figure
+from actuator_select.report.style import BLUE, GREEN, ORANGE, RED, house_style, new_figure
 from actuator_select.study import Study
 
+DARK = "#555555"  # the frame
 WIDTH = 6.4  # inches
 FLAT_HEIGHTS = (2.6, 6.4)  # least and greatest height of a flat picture, inches
 MARGIN = 0.07  # of the largest extent, around a flat robot
 LABEL_DISTANCE = 0.035  # of the largest extent, from an anchor to its cables' numbers
+NEIGHBOURS = 0.15  # of the largest extent; cables from anchors nearer than this are numbered at different places
+FIRST_LABEL, NEXT_LABEL = 0.2, 0.16  # of a cable's length from the frame to its number, and to the next neighbour's
 SAME_POINT = 1e-3  # of the largest extent; anchors nearer than this share a label
+END_OF_AXIS = 0.04  # of its length
 ELEVATION, AZIMUTH = 20.0, -62.0  # degrees
 
 
@@ -73,12 +78,13 @@ def _legend(figure: Figure, study: Study) -> None:
     handles = [
         Line2D([], [], color=BLUE, linewidth=1.2, label="cable"),
         Line2D([], [], color="black", marker="^", linestyle="none", markersize=5, label="frame anchor"),
+        Line2D([], [], color=DARK, linewidth=0.9, label="its box"),
         Line2D([], [], color=ORANGE, linewidth=4.0, alpha=0.7, label="platform"),
-        Line2D([], [], color=GREEN, linewidth=1.0, label="workspace box"),
+        Line2D([], [], color=GREEN, linewidth=1.0, label="workspace"),
     ]
     if study.robot.counterbalances:
         handles.append(Line2D([], [], color=RED, linestyle="--", linewidth=1.3, label="counterbalance"))
-    figure.legend(handles=handles, loc="outside lower center", ncols=len(handles))
+    figure.legend(handles=handles, loc="outside lower center", ncols=len(handles), columnspacing=1.3)
 
 
 def _title(study: Study, position: FloatArray) -> str:
@@ -91,11 +97,11 @@ def _spatial(study: Study, position: FloatArray) -> Figure:
     ends = _platform(study, position, robot.platform_anchors)
     low, high = _extent(study, ends)
     scale = float((high - low).max())
-    figure = new_figure(WIDTH, 5.2)
+    figure = new_figure(WIDTH, 5.1)
     axes = figure.add_subplot(projection="3d")
     if not isinstance(axes, Axes3D):  # pragma: no cover - matplotlib returns what was asked for
         raise TypeError(type(axes))
-    _box(axes, np.column_stack([robot.frame_anchors.min(axis=0), robot.frame_anchors.max(axis=0)]), GREY, 0.7)
+    _box(axes, np.column_stack([robot.frame_anchors.min(axis=0), robot.frame_anchors.max(axis=0)]), DARK, 0.9)
     _box(axes, study.region, GREEN, 1.0)
     for start, stop in zip(robot.frame_anchors, ends, strict=True):
         axes.plot(*np.vstack([start, stop]).T, color=BLUE, linewidth=1.2)
@@ -104,15 +110,31 @@ def _spatial(study: Study, position: FloatArray) -> Figure:
             axes.plot(*np.vstack([start, stop]).T, color=RED, linestyle="--", linewidth=1.3)
     _body(axes, ends, scale)
     axes.scatter(*robot.frame_anchors.T, marker="^", s=22, color="black", depthshade=False)
-    middle = (low + high) / 2.0
-    for point, names in _numbers(robot.frame_anchors, scale):
-        outwards = (point - middle) * np.array([1.0, 1.0, 0.6])
-        away = outwards / max(float(np.linalg.norm(outwards)), 1e-12) * 1.6 * LABEL_DISTANCE * scale
-        axes.text(*(point + away), names, fontsize=8.0, ha="center", va="center")
+    _number_cables(axes, robot.frame_anchors, ends, scale)
     _dress(axes, low, high, scale)
+    for artist in (*axes.lines, *axes.collections):  # a wide robot reaches beyond the square that matplotlib gives it
+        artist.set_clip_on(False)
+        artist.set_in_layout(False)
     axes.set_title(_title(study, position))
     _legend(figure, study)
     return figure
+
+
+def _number_cables(axes: Axes3D, frame: FloatArray, ends: FloatArray, scale: float) -> None:
+    """Write every cable's number on it; those of neighbouring cables stand at different places along them."""
+    for cable, (start, stop) in enumerate(zip(frame, ends, strict=True)):
+        earlier = int((np.linalg.norm(frame[:cable] - start, axis=1) < NEIGHBOURS * scale).sum())
+        place = start + (FIRST_LABEL + NEXT_LABEL * earlier) * (stop - start)
+        axes.text(
+            *place,
+            str(cable + 1),
+            fontsize=8.0,
+            color=BLUE,
+            ha="center",
+            va="center",
+            bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.6},
+            zorder=20,
+        )
 
 
 def _dress(axes: Axes3D, low: FloatArray, high: FloatArray, scale: float) -> None:
@@ -121,10 +143,17 @@ def _dress(axes: Axes3D, low: FloatArray, high: FloatArray, scale: float) -> Non
     middle = (low + high) / 2.0
     low, high = middle - thin / 2.0, middle + thin / 2.0
     axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), zlim=(low[2], high[2]))
-    axes.set_box_aspect(high - low, zoom=0.9)
+    axes.set_box_aspect(high - low, zoom=1.1)
     axes.view_init(elev=ELEVATION, azim=AZIMUTH)
-    for name, share in zip("xyz", thin / scale, strict=True):
-        axes.locator_params(axis=name, nbins=max(2, round(6 * float(share))))
+    for axis, start, stop in zip((axes.xaxis, axes.yaxis, axes.zaxis), low, high, strict=True):
+        length = float(stop - start)
+        ticks = MaxNLocator(nbins=max(5, round(7 * length / scale)), steps=[1, 2, 5, 10]).tick_values(
+            float(start), float(stop)
+        )
+        # Labels at the very ends would touch those of the next axis.
+        axis.set_ticks(ticks[(ticks > start + END_OF_AXIS * length) & (ticks < stop - END_OF_AXIS * length)])
+        axis.pane.set_facecolor("white")
+    axes.grid(visible=False)
     axes.set_xlabel("x [m]")
     axes.set_ylabel("y [m]")
     axes.set_zlabel("z [m]")
@@ -170,7 +199,7 @@ def _flat(study: Study, position: FloatArray) -> Figure:
     figure = new_figure(WIDTH, float(np.clip(WIDTH * ratio + 1.0, *FLAT_HEIGHTS)))
     axes = figure.add_subplot()
     for (x, z), (width, height), colour, line in (
-        (frame.min(axis=0), np.ptp(frame, axis=0), GREY, 0.7),
+        (frame.min(axis=0), np.ptp(frame, axis=0), DARK, 0.9),
         (study.region[plane, 0], np.ptp(study.region[plane], axis=1), GREEN, 1.0),
     ):
         axes.add_patch(Rectangle((x, z), width, height, fill=False, edgecolor=colour, linewidth=line))
@@ -187,7 +216,7 @@ def _flat(study: Study, position: FloatArray) -> Figure:
     for point, names in _numbers(frame, scale):
         outwards = np.sign(point - middle) * LABEL_DISTANCE * scale
         x, y = point + outwards
-        axes.text(x, y, names, fontsize=8.0, ha="center", va="center")
+        axes.text(float(x), float(y), names, fontsize=8.0, ha="center", va="center")
     axes.set_xlim(low[0] - pad, high[0] + pad)
     axes.set_ylim(low[1] - pad, high[1] + pad)
     axes.set_aspect("equal")

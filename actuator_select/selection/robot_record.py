@@ -136,9 +136,8 @@ def robot_items(sheet: RobotSheet) -> dict[str, str]:
         "cables": f"{robot.cables}, redundancy {beyond} ({compared} the {robot.degrees_of_freedom} equations)",
     }
     if robot.platform.mass > 0.0:
-        items["platform"] = (
-            f"{robot.platform.mass:g} kg, centre of gravity {_vector(robot.platform.centre_of_gravity)} m"
-        )
+        centre = _vector(robot.platform.centre_of_gravity)
+        items["platform"] = f"{robot.platform.mass:g} kg, centre of gravity {centre} m"
     items["loads"] = "; ".join(
         f"{load.title}: {load.body.mass:g} kg{_pushed('N', load.force_lower, load.force_upper)}"
         f"{_pushed('N m', load.moment_lower, load.moment_upper)}"

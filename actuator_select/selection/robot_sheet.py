@@ -1,4 +1,4 @@
-"""What the frame and the ropes of a robot have to be: forces on the frame, rope lengths, and what to mind about the robot."""
+"""What frame and ropes of a robot have to be: forces on the frame, rope lengths, and what to mind."""
 
 from dataclasses import dataclass
 
@@ -254,7 +254,7 @@ def _warnings(study: Study, demand: Demand, held: BoolArray) -> tuple[Warned, ..
             Warned(
                 code="suspended",
                 poses=total,
-                text="Every cable leads upwards: only weight keeps the cables taut, and nothing pulls the platform down.",
+                text="Every cable leads upwards: only weight keeps them taut, and nothing pulls the platform down.",
             )
         )
     if _is_similar(robot):
@@ -272,7 +272,8 @@ def _warnings(study: Study, demand: Demand, held: BoolArray) -> tuple[Warned, ..
             Warned(
                 code="not_held_at_rest",
                 poses=int((~held).sum()),
-                text=f"At {int((~held).sum())} of {total} positions no tensions within their bounds hold the platform still.",
+                text=f"At {int((~held).sum())} of {total} positions no tensions within their bounds hold the platform "
+                "still.",
             )
         )
     return (*found, *_short_cables(robot, demand))
@@ -305,6 +306,7 @@ def _short_cables(robot: CableRobot, demand: Demand) -> list[Warned]:
             poses=count,
             text=f"Cable{'s' if several else ''} {numbers} become{'' if several else 's'} as short as "
             f"{demand.lengths[short].min():.3g} m, at {count} of {len(demand.positions)} positions shorter than "
-            f"{float(least.max()):.3g} m: near an anchor a cable turns quickly. Keep the workspace off it, or state cables.length_min_m.",
+            f"{float(least.max()):.3g} m: near an anchor a cable turns quickly. Keep the workspace off it, or state "
+            "cables.length_min_m.",
         )
     ]

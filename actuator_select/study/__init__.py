@@ -9,7 +9,8 @@ from actuator_select.study.loading import (
     study_text,
 )
 from actuator_select.study.overrides import parse_overrides
-from actuator_select.study.templates import DEFAULT_TEMPLATE, TEMPLATES, TemplateOptions, template_text
+from actuator_select.study.template_families import TEMPLATES, TemplateOptions
+from actuator_select.study.templates import DEFAULT_TEMPLATE, template_text
 
 __all__ = [
     "DEFAULT_TEMPLATE",

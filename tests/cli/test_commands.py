@@ -210,6 +210,17 @@ BAD_INPUT = [
     (["simulate", "cpr8", "Actuator 1", "--from", "1,1,-1", "--to", "1,2,-1", "--plot", "run.doc"], ".doc"),
     (["study", "show", "missing.toml"], "missing.toml"),
     (["study", "new", "missing/robot.toml"], "cannot write"),
+    (["study", "new", "a.toml", "--template", "suspendet-8"], "did you mean 'suspended-8'"),
+    (["study", "new", "a.toml", "--template", "suspended-8", "--hall", "15,11"], "three numbers"),
+    (["study", "new", "a.toml", "--template", "suspended-8", "--platform", "1,1,9"], "smaller than the hall"),
+    (["study", "new", "a.toml", "--template", "six-six", "--hall", "3,3,3"], "no --hall with the template six-six"),
+    (["study", "new", "a.toml", "--mass", "0"], "--mass: 0, expected a number from 0.001"),
+    (["study", "new", "a.toml", "--mass", "-2"], "--mass: -2, expected"),
+    (["study", "new", "a.toml", "--speed", "nan"], "--speed: nan, expected"),
+    (["study", "new", "a.toml", "--template", "anchors"], "--anchors: is missing"),
+    (["study", "new", "a.toml", "--template", "anchors", "--anchors", "none.csv"], "cannot be read"),
+    (["robot", "show", "cpr9"], "did you mean 'cpr8'"),
+    (["robot", "show", "cpr8", "--plot", "cpr8.doc"], ".doc"),
     (["nonsense"], "No such command"),
 ]
 
