@@ -123,8 +123,9 @@ def support_interval(  # noqa: PLR0913 - as `compute_demand`
             progress(min(part.stop, len(each)), len(each))
     low = lower.reshape(len(positions), -1).max(axis=1)  # NaN passes through
     high = upper.reshape(len(positions), -1).min(axis=1)
-    empty = ~(low <= high + BOUND_TOLERANCE * np.maximum(np.abs(low), np.abs(high)))
-    empty &= ~(np.isneginf(low) & np.isposinf(high))
+    size = np.maximum(np.abs(low), np.abs(high))
+    slack = BOUND_TOLERANCE * np.where(np.isfinite(size), size, 0.0)
+    empty = ~(low <= high + slack) | np.isposinf(low) | np.isneginf(high)
     return SupportInterval(lower=np.where(empty, np.nan, low), upper=np.where(empty, np.nan, np.maximum(low, high)))
 
 
@@ -181,7 +182,8 @@ def _poses(
         low, high = _within(acting.along(basis, at), sets.projected(basis, which[at]))
         if value < len(rows):
             beyond = left[at][:, :, value:]
-            fixed_low, fixed_high = _beyond(acting.along(beyond, at), sets.projected(beyond, which[at]))
+            size = sets.magnitude(which[at]).max(axis=1) + np.linalg.norm(acting.shift[at], axis=1)
+            fixed_low, fixed_high = _beyond(acting.along(beyond, at), sets.projected(beyond, which[at]), size)
             low, high = np.maximum(low, fixed_low), np.minimum(high, fixed_high)
         lower[at], upper[at] = low, high
     unreachable = (geometry.lengths > robot.bounds.length_max * (1.0 + BOUND_TOLERANCE)).any(axis=1)
@@ -216,10 +218,11 @@ def _within(acting: _Columns, sets: WrenchSets) -> tuple[FloatArray, FloatArray]
     return lower, upper
 
 
-def _beyond(acting: _Columns, sets: WrenchSets) -> tuple[FloatArray, FloatArray]:
-    """Interval from what no cable balances: one tension, or any where nothing is asked there; empty ends cross."""
-    poses = len(acting.rope)
-    size = sets.magnitude(np.arange(poses)).max(axis=1) + np.linalg.norm(acting.shift, axis=1)
+def _beyond(acting: _Columns, sets: WrenchSets, size: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Interval from what no cable balances: one tension, or any where nothing is asked there; empty ends cross.
+
+    `size`, (q,), is that of all wrenches at hand, to tell what is rounding.
+    """
     spread = np.linalg.norm(sets.segments, axis=-1).sum(axis=-1) + np.linalg.norm(sets.balls, axis=(-2, -1)).sum(
         axis=-1
     )
@@ -229,9 +232,7 @@ def _beyond(acting: _Columns, sets: WrenchSets) -> tuple[FloatArray, FloatArray]
     tension = np.einsum("qgr,qr->qg", centre, acting.rope) / np.where(bears, square, 1.0)[:, None]
     first = np.where(bears, tension[:, 0], 0.0)
     left_over = np.linalg.norm(centre - first[:, None, None] * acting.rope[:, None], axis=-1) + spread
-    holds = (
-        left_over <= BALANCE_TOLERANCE * np.maximum(size, np.linalg.norm(centre, axis=-1).max(axis=1))[:, None]
-    ).all(axis=1)
+    holds = (left_over <= BALANCE_TOLERANCE * size[:, None]).all(axis=1)
     lower = np.where(holds, np.where(bears, first, -np.inf), np.inf)
     upper = np.where(holds, np.where(bears, first, np.inf), -np.inf)
     return lower, upper
