@@ -133,7 +133,9 @@ def test_without_the_centripetal_term_only_accelerations_and_voltages_change() -
     flat = LineMove(
         start=move.start, stop=move.stop, orientation=move.orientation, profile=move.profile, centripetal=False
     )
-    other = DrivenMove(robot=ROBOT, wrench=WRENCH, tension_model=PUBLISHED, move=flat, actuator=actuator()).history(run.times, run.phases)
+    other = DrivenMove(robot=ROBOT, wrench=WRENCH, tension_model=PUBLISHED, move=flat, actuator=actuator()).history(
+        run.times, run.phases
+    )
     assert np.array_equal(other.torque, run.torque)
     assert np.array_equal(other.speed, run.speed)
     assert (other.acceleration >= run.acceleration).all()

@@ -134,7 +134,9 @@ def energy_rate(body: MassPoints, gravity: float, turn: np.ndarray, motions: Mot
 
 def _at(placed: np.ndarray, motions: Motions, time: float) -> np.ndarray:
     origin = time * motions.velocity + time**2 / 2.0 * motions.acceleration
-    return origin[:, None] + np.einsum("sij,kj->ski", turned(time * motions.spin + time**2 / 2.0 * motions.spin_rate), placed)
+    return origin[:, None] + np.einsum(
+        "sij,kj->ski", turned(time * motions.spin + time**2 / 2.0 * motions.spin_rate), placed
+    )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
