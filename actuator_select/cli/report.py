@@ -42,8 +42,8 @@ def command(
 ) -> None:
     """Write the design report, one self-contained HTML file.
 
-    Prints the ranking, then the path of the report. A study with `candidates.kind = "none"` gets a report on its robot's
-    workspace.
+    Prints the ranking, then the path of the report. A study with `candidates.kind = "none"` gets a report on where its
+    robot can work.
 
     \b
     Example:

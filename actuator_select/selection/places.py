@@ -119,7 +119,7 @@ def _inside(study: Study, box: FloatArray) -> FloatArray:
 
 
 def position_verdicts(evaluation: Evaluation, index: int, checks: Iterable[Check]) -> BoolArray:
-    """Where every evaluated check of one actuator holds and some drive could serve, at the positions that count, (n,)."""
+    """Where every evaluated check of one actuator holds and some drive could serve, of the positions that count."""
     known = [check for check in checks if evaluation.checks[check].evaluated[index]]
     used = position_utilisation(evaluation.demand, evaluation.actuators.take([index]), known)
     holds = [values[0] <= 1.0 + ROUNDING for values in used.values()]

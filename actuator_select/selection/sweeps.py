@@ -120,7 +120,7 @@ def sweep_workspace(  # noqa: PLR0913 - as `evaluate_workspace`, and the sweep
     return sweep_built(build, axes, kind=kind, over=over, tension_model=tension_model, progress=progress)
 
 
-def sweep_built(  # noqa: PLR0913 - as `sweep_workspace`
+def sweep_built(
     build: Callable[[Mapping[str, object]], Study],
     axes: Sequence[SweepAxis],
     *,

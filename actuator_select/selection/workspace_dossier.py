@@ -1,4 +1,4 @@
-"""All that a report on a robot shows, before or without any actuator: where it can work, what limits it, what it owes."""
+"""All that a report on a robot shows, without any actuator: where it can work, and what that depends on."""
 
 from dataclasses import dataclass
 

@@ -130,8 +130,8 @@ def _cables_without_length(study: "Study") -> list[Problem]:
                         place="workspace",
                         value=f"at ({x:g}, {y:g}, {z:g}) m cable {cable + 1} has no length and so no direction",
                         expected="positions off the anchors [m]",
-                        remedy="move the box or the grid; or state cables.length_min_m, which sets nearer positions apart "
-                        "(0: they count as not served)",
+                        remedy="move the box or the grid; or state cables.length_min_m, which sets nearer positions "
+                        "apart (0: they count as not served)",
                     )
                 ]
     return []

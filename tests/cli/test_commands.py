@@ -36,7 +36,7 @@ def run(capfd: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.M
 def readme_commands() -> list[str]:
     blocks = re.findall(r"```console\n(.*?)```", README, flags=re.DOTALL)
     quick = [line for block in blocks for line in block.splitlines() if line.startswith("actuator-select ")]
-    tabled = re.findall(r"`(actuator-select (?:rank|report) [^`]*)`", README.split("## Study files")[0])
+    tabled = re.findall(r"`(actuator-select (?:rank|report|workspace) [^`]*)`", README.split("## Study files")[0])
     return [command for command in quick + tabled if "reports/" not in command]
 
 
@@ -50,10 +50,13 @@ def test_every_command_in_the_readme_runs_in_order(run: Run) -> None:
 
 def test_the_counts_in_the_readme_are_what_its_commands_print(run: Run) -> None:
     rows = re.findall(r"\| ([\d, *]+) \| `actuator-select ([^`]+)` \|", README)
-    assert len(rows) == 6
+    assert len(rows) == 14
     for text, command in rows:
         expected = [int(number) for number in text.replace("*", "").split(",")]
         _, out, _ = run(*shlex.split(command), "--format", "json")
+        if command.startswith("workspace"):
+            assert [json.loads(out)["feasible_poses"]] == expected, command
+            continue
         found = {one["name"]: one["feasible_poses"] for one in json.loads(out)["actuators"]}
         assert [found[f"Actuator {number}"] for number in range(1, len(expected) + 1)] == expected, command
 

@@ -1,7 +1,7 @@
 """Demand and worst voltage under the pseudo-inverse against sampled motions of mass points on differenced cables."""
 
 from dataclasses import dataclass, replace
-from itertools import product
+from itertools import pairwise, product
 
 import numpy as np
 import pytest
@@ -271,7 +271,7 @@ def test_a_ball_never_asks_more_than_its_box_nor_a_straight_move_more_than_indep
         many(case, sets(freedom, acceleration_box=True, spin=spin)[0]),
         many(case, sets(freedom, acceleration_box=True, velocity_box=True, spin=spin)[0]),
     ]
-    for less, more in zip(chain, chain[1:], strict=False):
+    for less, more in pairwise(chain):
         assert (less.force <= more.force * (1.0 + 1e-12)).all()
         assert (less.acceleration <= more.acceleration * (1.0 + 1e-12)).all()
         assert (voltage_demand(less).worst(LINE) <= voltage_demand(more).worst(LINE) * (1.0 + 1e-12)).all()

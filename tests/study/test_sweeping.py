@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from actuator_select.errors import InvalidStudy
-from actuator_select.study import parse_study, starter_text
+from actuator_select.study import parse_study, template_text
 from actuator_select.study.sweeping import combinations, parse_sweep
 
 
@@ -70,7 +70,7 @@ def test_the_last_key_varies_fastest() -> None:
 
 
 def test_an_entry_of_a_list_left_at_its_default_can_be_set() -> None:
-    study = parse_study(starter_text("x"), place="x.toml", overrides={"payload.force_n[2]": -5.0})
+    study = parse_study(template_text("x"), place="x.toml", overrides={"payload.force_n[2]": -5.0})
     assert study.table.payload[0].force_n == (0.0, 0.0, -5.0)
     with pytest.raises(InvalidStudy, match="leads nowhere"):
-        parse_study(starter_text("x"), place="x.toml", overrides={"payload.force_n[3]": -5.0})
+        parse_study(template_text("x"), place="x.toml", overrides={"payload.force_n[3]": -5.0})
