@@ -44,16 +44,18 @@ def minimax(
     # One contiguous column after the other.
     table = np.ascontiguousarray(columns.swapaxes(1, 2))
     norms = np.linalg.norm(table, axis=2)
-    arrays = [np.ascontiguousarray(one) for one in (wrenches.centre, wrenches.segments, wrenches.balls)]
+    centre, segments, balls = map(np.ascontiguousarray, (wrenches.centre, wrenches.segments, wrenches.balls))
     shared = np.ascontiguousarray(bounds.shared)
 
     def work(part: slice) -> None:
         _shift(
             table[part],
             norms[part],
-            *arrays,
+            centre,
+            segments,
+            balls,
             magnitude,
-            np.ascontiguousarray(which[part]),
+            np.ascontiguousarray(which[part], dtype=np.int64),
             np.ascontiguousarray(shift[part]),
             bounds.lower,
             bounds.upper,
