@@ -108,13 +108,11 @@ def _mask(axes: tuple[int, ...]) -> FloatArray:
 def _extent(vectors: FloatArray, size: FloatArray, shape: SetShape) -> FloatArray:
     """Largest dot product of (q, m, 3) vectors with a box of half edges `size`, or a ball of that radius; (q, m)."""
     if shape is SetShape.BALL:
-        result: FloatArray = np.linalg.norm(vectors, axis=-1) * size[0]
-        return result
-    result = np.abs(vectors) @ size
-    return result
+        return np.asarray(np.linalg.norm(vectors, axis=-1) * size[0])
+    return np.asarray(np.abs(vectors) @ size)
 
 
-def _largest(  # noqa: PLR0913, PLR0917 - what `cable_motion` has at hand
+def _largest(
     robot: CableRobot,
     geometry: CableGeometry,
     along: FloatArray,

@@ -159,7 +159,7 @@ def platform_wrench(
 
 
 def wrench_scale(robot: CableRobot, rows: Sequence[int]) -> FloatArray:
-    """Factors of wrench rows that make moments comparable with forces, (n,): 1, and 1/characteristic length. [-, 1/m]"""
+    """Factors of wrench rows that make moments comparable with forces, (n,): 1, or 1/characteristic length. [-, 1/m]"""
     return np.array([1.0 if row < 3 else 1.0 / robot.characteristic_length for row in rows])  # noqa: PLR2004 - forces first
 
 

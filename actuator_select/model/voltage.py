@@ -228,10 +228,8 @@ def _reach_of_acceleration(demand: Demand) -> FloatArray:
     if motion.kind is MotionKind.LISTED:
         return np.zeros_like(demand.lengths)
     if motion.acceleration_shape is SetShape.BALL:
-        result: FloatArray = np.linalg.norm(demand.directions, axis=-1) * motion.acceleration_reach[0]
-        return result
-    result = np.abs(demand.directions) @ motion.acceleration_reach
-    return result
+        return np.asarray(np.linalg.norm(demand.directions, axis=-1) * motion.acceleration_reach[0])
+    return np.asarray(np.abs(demand.directions) @ motion.acceleration_reach)
 
 
 def _swing(demand: Demand) -> tuple[FloatArray, FloatArray, FloatArray]:

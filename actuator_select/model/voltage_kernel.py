@@ -145,7 +145,7 @@ def _tabulate(table, knots, speed, upper, lower):  # type: ignore[no-untyped-def
                 reach = (
                     abs(row[2, cable] + mass * row[5, cable])
                     + abs(row[3, cable] + mass * row[6, cable])
-                        + abs(row[4, cable] + mass * row[7, cable])
+                    + abs(row[4, cable] + mass * row[7, cable])
                     + row[12, cable]
                     + mass * row[13, cable]
                 )

@@ -8,9 +8,9 @@ from actuator_select.model.arrays import FloatArray, IntArray
 from actuator_select.model.components import ActuatorSet
 from actuator_select.model.demand import Demand, LinearTensions, compute_demand
 from actuator_select.model.dynamics import required_wrench
+from actuator_select.model.families import cpr8, cpr8_region
 from actuator_select.model.kinematics import position_grid
 from actuator_select.model.motion import independent_motion
-from actuator_select.model.families import cpr8, cpr8_region
 from tests.benchmarks.plain_numpy import worst_voltage
 
 FRAME, CARRIER = np.array([3.2, 2.2, 2.2]), np.array([0.224, 0.154, 0.140])

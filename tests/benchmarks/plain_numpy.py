@@ -53,10 +53,7 @@ def worst_voltage(demand: Demand, actuators: ActuatorSet) -> FloatArray:
     box = np.zeros((len(actuators), *demand.lengths.shape))
     for axis in range(3):
         box += (
-            np.abs(
-                gain / radius * demand.directions[..., axis]
-                + load * radius * tensions.per_acceleration[..., axis]
-            )
+            np.abs(gain / radius * demand.directions[..., axis] + load * radius * tensions.per_acceleration[..., axis])
             * motion.acceleration_upper[axis]
         )
     swing = gain / (radius * demand.lengths)

@@ -14,9 +14,9 @@ from actuator_select.model.components import ActuatorSet
 from actuator_select.model.demand import compute_demand
 from actuator_select.model.dynamics import required_wrench
 from actuator_select.model.evaluation import evaluate_actuators, position_utilisation
+from actuator_select.model.families import cpr8, cpr8_region
 from actuator_select.model.kinematics import position_grid
 from actuator_select.model.motion import sampled_motion
-from actuator_select.model.families import cpr8, cpr8_region
 from actuator_select.units import kg_m2, rad_per_s
 from tests.benchmarks import plain_numpy
 from tests.benchmarks.cases import large_demand, synthetic_actuators

@@ -80,7 +80,9 @@ def least_level(columns: np.ndarray, wrench: np.ndarray, tension_min: float) -> 
 
 def can_hold(columns: np.ndarray, wrench: np.ndarray, tension_min: float, tension_max: float) -> bool:
     bounds = [(tension_min, tension_max)] * columns.shape[1]
-    return bool(linprog(np.zeros(columns.shape[1]), A_eq=columns, b_eq=wrench, bounds=bounds, method="highs").status == 0)
+    return bool(
+        linprog(np.zeros(columns.shape[1]), A_eq=columns, b_eq=wrench, bounds=bounds, method="highs").status == 0
+    )
 
 
 @pytest.mark.parametrize("freedom", FREEDOMS)
@@ -157,7 +159,10 @@ def scalar_verdicts(demand: Demand, actuators: ActuatorSet, index: int, tension_
     gain = actuators.resistance[index] / (actuators.torque_constant[index] * torque_ratio)  # S
     damping = actuators.friction[index] * ratio * torque_ratio * gain + actuators.back_emf_constant[index] * ratio  # L
     alpha, beta = inertia / radius**2, damping / (gain * radius**2)
-    by_torque, by_voltage = actuators.motor_torque[index] * torque_ratio / radius, actuators.voltage[index] / (gain * radius)
+    by_torque, by_voltage = (
+        actuators.motor_torque[index] * torque_ratio / radius,
+        actuators.voltage[index] / (gain * radius),
+    )
     verdicts: dict[str, list[bool]] = {check.value: [] for check in Check}
     for pose in range(len(demand.force)):
         holds = dict.fromkeys(verdicts, True)

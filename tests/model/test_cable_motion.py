@@ -47,7 +47,9 @@ def bounds_at(robot: CableRobot, position: np.ndarray, angles: np.ndarray, motio
     return cable_motion(robot, cable_geometry(robot, position[None], angles[None]), motion)  # type: ignore[arg-type]
 
 
-def rates(robot: CableRobot, position: np.ndarray, angles: np.ndarray, motions: Motions) -> tuple[np.ndarray, np.ndarray]:
+def rates(
+    robot: CableRobot, position: np.ndarray, angles: np.ndarray, motions: Motions
+) -> tuple[np.ndarray, np.ndarray]:
     return cable_rates(robot.frame_anchors, position, robot.platform_anchors @ rotation(angles).T, motions)
 
 
@@ -91,9 +93,7 @@ def test_without_turning_the_bounds_are_attained_and_never_exceeded(
     motion = independent_motion(
         SPEED, RAMP, RAMP, centripetal=True, velocity_shape=velocity, acceleration_shape=acceleration
     )
-    limits = limits_of(
-        freedom, velocity_box=velocity is SetShape.BOX, acceleration_box=acceleration is SetShape.BOX
-    )
+    limits = limits_of(freedom, velocity_box=velocity is SetShape.BOX, acceleration_box=acceleration is SetShape.BOX)
     found = reached(robot, position, angles, limits, search=True)
     for bound, largest in zip(extremes(bounds_at(robot, position, angles, motion)), found, strict=True):
         assert (largest <= bound + DIFFERENCES).all()
@@ -104,7 +104,9 @@ def test_without_turning_the_bounds_are_attained_and_never_exceeded(
 @pytest.mark.parametrize("shape", list(SetShape))
 @pytest.mark.parametrize("kind", [MotionKind.INDEPENDENT, MotionKind.STRAIGHT])
 @pytest.mark.parametrize("seed", range(4))
-def test_a_turning_platform_never_exceeds_the_bounds(freedom: Freedom, shape: SetShape, kind: MotionKind, seed: int) -> None:
+def test_a_turning_platform_never_exceeds_the_bounds(
+    freedom: Freedom, shape: SetShape, kind: MotionKind, seed: int
+) -> None:
     if kind is MotionKind.STRAIGHT and shape is SetShape.BOX:
         pytest.skip("straight moves have no box")
     robot, position, angles = a_robot(freedom, seed)

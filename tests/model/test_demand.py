@@ -1,7 +1,7 @@
 """Demand and worst voltage under the pseudo-inverse against sampled motions of mass points on differenced cables."""
 
 from dataclasses import dataclass, replace
-from itertools import product
+from itertools import pairwise, product
 
 import numpy as np
 import pytest
@@ -115,7 +115,12 @@ def situation(freedom: Freedom, seed: int, cables: int = 5) -> Situation:
 
 
 def sets(
-    freedom: Freedom, *, straight: bool = False, velocity_box: bool = False, acceleration_box: bool = False, spin: float = 0.0
+    freedom: Freedom,
+    *,
+    straight: bool = False,
+    velocity_box: bool = False,
+    acceleration_box: bool = False,
+    spin: float = 0.0,
 ) -> tuple[MotionSet, MotionLimits]:
     """The same set for the package and for the search."""
     motion = independent_motion(
@@ -216,7 +221,9 @@ def test_no_motion_asks_more_than_a_safe_bound(freedom: Freedom, shape: str, spi
 def test_a_box_of_velocities_swings_a_cable_that_lies_along_one_of_its_axes() -> None:
     # A cable along x: its speed is V at most, but V along y and z swings it.
     robot = CableRobot(frame_anchors=np.array([[2.0, 0.0, 0.0]]), platform_anchors=np.zeros((1, 3)))
-    motion = replace(sets(Freedom.POINT, velocity_box=True)[0], acceleration_lower=np.zeros(3), acceleration_upper=np.zeros(3))
+    motion = replace(
+        sets(Freedom.POINT, velocity_box=True)[0], acceleration_lower=np.zeros(3), acceleration_upper=np.zeros(3)
+    )
     wrench = platform_wrench([RigidBody(mass=0.0)], GRAVITY, np.zeros(3))
     demand = compute_demand(robot, np.zeros((1, 3)), np.zeros((1, 3)), [[wrench]], motion)
     mass, damping = 1.0, 20.0
@@ -246,7 +253,11 @@ def many(case: Situation, motion: MotionSet, **changed: object) -> Demand:
     wrenches = [[platform_wrench([], GRAVITY, case.angles, load) for load in case.loads]]
     asked = {"robot": case.robot, "wrenches": wrenches} | changed
     return compute_demand(
-        asked["robot"], positions, case.angles[None], asked["wrenches"], motion  # type: ignore[arg-type]
+        asked["robot"],
+        positions,
+        case.angles[None],
+        asked["wrenches"],
+        motion,  # type: ignore[arg-type]
     )
 
 
@@ -260,7 +271,7 @@ def test_a_ball_never_asks_more_than_its_box_nor_a_straight_move_more_than_indep
         many(case, sets(freedom, acceleration_box=True, spin=spin)[0]),
         many(case, sets(freedom, acceleration_box=True, velocity_box=True, spin=spin)[0]),
     ]
-    for less, more in zip(chain, chain[1:], strict=False):
+    for less, more in pairwise(chain):
         assert (less.force <= more.force * (1.0 + 1e-12)).all()
         assert (less.acceleration <= more.acceleration * (1.0 + 1e-12)).all()
         assert (voltage_demand(less).worst(LINE) <= voltage_demand(more).worst(LINE) * (1.0 + 1e-12)).all()

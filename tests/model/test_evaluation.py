@@ -13,9 +13,9 @@ from actuator_select.model.components import ActuatorSet
 from actuator_select.model.demand import Demand, compute_demand
 from actuator_select.model.dynamics import required_wrench
 from actuator_select.model.evaluation import evaluate_actuators, missing_figures, position_utilisation
+from actuator_select.model.families import cpr8, cpr8_region
 from actuator_select.model.kinematics import position_grid
 from actuator_select.model.motion import MotionSet, independent_motion, sampled_motion
-from actuator_select.model.families import cpr8, cpr8_region
 from actuator_select.model.robot import CableRobot
 from actuator_select.model.tension import TensionModel
 from actuator_select.model.voltage import voltage_demand
@@ -274,13 +274,17 @@ def test_a_position_has_to_hold_at_every_orientation() -> None:
         )
         for one in orientations
     ]
-    both = evaluate_actuators(compute_demand(robot, positions, orientations, [[wrench]] * 2, MOTION), actuators, list(Check))
+    both = evaluate_actuators(
+        compute_demand(robot, positions, orientations, [[wrench]] * 2, MOTION), actuators, list(Check)
+    )
     assert both.positions.tolist() == (holds[0] & holds[1]).sum(axis=1).tolist()
 
 
 def test_a_pose_at_an_anchor_is_served_by_nobody() -> None:
     robot = CableRobot(frame_anchors=np.eye(3), platform_anchors=np.zeros((3, 3)))
-    demand = compute_demand(robot, np.array([[1.0, 0.0, 0.0]]), np.zeros((1, 3)), [[required_wrench(1.0, 9.81)]], MOTION)
+    demand = compute_demand(
+        robot, np.array([[1.0, 0.0, 0.0]]), np.zeros((1, 3)), [[required_wrench(1.0, 9.81)]], MOTION
+    )
     unlimited = replace(synthetic_actuators(2), voltage=np.array([24.0, np.inf]))
     for check in Check:
         assert evaluate_actuators(demand, unlimited, [check]).positions.tolist() == [0, 0]

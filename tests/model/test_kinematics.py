@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from actuator_select.model.kinematics import cable_geometry, position_grid, rotation_matrix
 from actuator_select.model.families import cpr8, cpr8_region
+from actuator_select.model.kinematics import cable_geometry, position_grid, rotation_matrix
 from actuator_select.model.robot import CableRobot
 
 FRAME, CARRIER = np.array([3.2, 2.2, 2.2]), np.array([0.224, 0.154, 0.140])

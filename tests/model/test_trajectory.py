@@ -7,8 +7,8 @@ from actuator_select.model.actuation import Check
 from actuator_select.model.components import ActuatorSet
 from actuator_select.model.dynamics import required_wrench
 from actuator_select.model.exceedance import exceedances, peaks, with_peaks
-from actuator_select.model.kinematics import cable_geometry, least_cable_lengths
 from actuator_select.model.families import cpr8
+from actuator_select.model.kinematics import cable_geometry, least_cable_lengths
 from actuator_select.model.robot import CableRobot
 from actuator_select.model.tension import TensionModel
 from actuator_select.model.trajectory import (
@@ -133,7 +133,9 @@ def test_without_the_centripetal_term_only_accelerations_and_voltages_change() -
     flat = LineMove(
         start=move.start, stop=move.stop, orientation=move.orientation, profile=move.profile, centripetal=False
     )
-    other = DrivenMove(robot=ROBOT, wrench=WRENCH, tension_model=PUBLISHED, move=flat, actuator=actuator()).history(run.times, run.phases)
+    other = DrivenMove(robot=ROBOT, wrench=WRENCH, tension_model=PUBLISHED, move=flat, actuator=actuator()).history(
+        run.times, run.phases
+    )
     assert np.array_equal(other.torque, run.torque)
     assert np.array_equal(other.speed, run.speed)
     assert (other.acceleration >= run.acceleration).all()
