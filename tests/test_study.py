@@ -182,3 +182,14 @@ def test_any_value_anywhere_gives_a_study_or_a_clear_error(key: str, value: obje
         assert str(error)  # noqa: PT017 - either outcome is right
     else:
         assert len(study.positions) > 0
+
+
+def test_a_grid_position_in_an_anchor_is_refused_unless_a_least_length_is_stated() -> None:
+    robot, text = load_study("cpr8").robot, study_text("cpr8")
+    end = robot.frame_anchors[2] - robot.platform_anchors[2]
+    box = [[float(value), float(value) + 0.5] for value in end]
+    corner = {"workspace.box_m": box, "workspace.points": [2, 2, 2]}
+    with pytest.raises(InvalidStudy, match="cable 3 has no length and so no direction"):
+        parse_study(text, place="corner", overrides=corner)
+    stated = parse_study(text, place="corner", overrides=corner | {"cables": {"length_min_m": 0.05}})
+    assert len(stated.positions) == 8

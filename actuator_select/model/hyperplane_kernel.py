@@ -44,9 +44,7 @@ def minimax(
     # One contiguous column after the other.
     table = np.ascontiguousarray(columns.swapaxes(1, 2))
     norms = np.linalg.norm(table, axis=2)
-    centre, segments, balls = (
-        np.ascontiguousarray(one) for one in (wrenches.centre, wrenches.segments, wrenches.balls)
-    )
+    centre, segments, balls = map(np.ascontiguousarray, (wrenches.centre, wrenches.segments, wrenches.balls))
     shared = np.ascontiguousarray(bounds.shared)
 
     def work(part: slice) -> None:
@@ -57,7 +55,7 @@ def minimax(
             segments,
             balls,
             magnitude,
-            np.ascontiguousarray(which[part]),
+            np.ascontiguousarray(which[part], dtype=np.int64),
             np.ascontiguousarray(shift[part]),
             bounds.lower,
             bounds.upper,

@@ -113,7 +113,7 @@ def needed_wrench(body: MassPoints, gravity: float, turn: np.ndarray, motions: M
     placed = body.points @ turn.T
     where = paths(np.zeros(3), placed, motions)
     acceleration = np.einsum("t,tski->ski", SECOND, where) / STEP**2
-    forces = body.masses[:, None] * ([*acceleration, 0.0, 0.0, gravity])
+    forces = body.masses[:, None] * (acceleration + np.array([0.0, 0.0, gravity]))
     return np.hstack([forces.sum(axis=1), np.cross(placed, forces).sum(axis=1)])
 
 
