@@ -112,7 +112,7 @@ def test_a_file_that_is_not_toml_is_refused_with_its_line(tmp_path: Path) -> Non
 
 
 def test_explicit_cables_need_a_box() -> None:
-    text = template_text("robot").replace("\nbox_m = ", "\nregion = \"builder\"  # ")
+    text = template_text("robot").replace("\nbox_m = ", '\nregion = "builder"  # ')
     with pytest.raises(InvalidStudy, match="box_m"):
         parse_study(text, place="robot")
 
