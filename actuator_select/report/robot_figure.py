@@ -78,7 +78,7 @@ def _legend(figure: Figure, study: Study) -> None:
     handles = [
         Line2D([], [], color=BLUE, linewidth=1.2, label="cable"),
         Line2D([], [], color="black", marker="^", linestyle="none", markersize=5, label="frame anchor"),
-        Line2D([], [], color=DARK, linewidth=0.9, label="its box"),
+        Line2D([], [], color=DARK, linewidth=0.9, label="frame"),
         Line2D([], [], color=ORANGE, linewidth=4.0, alpha=0.7, label="platform"),
         Line2D([], [], color=GREEN, linewidth=1.0, label="workspace"),
     ]
@@ -143,7 +143,7 @@ def _dress(axes: Axes3D, low: FloatArray, high: FloatArray, scale: float) -> Non
     middle = (low + high) / 2.0
     low, high = middle - thin / 2.0, middle + thin / 2.0
     axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), zlim=(low[2], high[2]))
-    axes.set_box_aspect(high - low, zoom=1.1)
+    axes.set_box_aspect(high - low, zoom=0.96)
     axes.view_init(elev=ELEVATION, azim=AZIMUTH)
     for axis, start, stop in zip((axes.xaxis, axes.yaxis, axes.zaxis), low, high, strict=True):
         length = float(stop - start)
@@ -156,7 +156,7 @@ def _dress(axes: Axes3D, low: FloatArray, high: FloatArray, scale: float) -> Non
     axes.grid(visible=False)
     axes.set_xlabel("x [m]")
     axes.set_ylabel("y [m]")
-    axes.set_zlabel("z [m]")
+    axes.set_zlabel("z [m]", labelpad=0)
     axes.tick_params(labelsize=7.0, pad=0)
 
 

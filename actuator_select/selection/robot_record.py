@@ -154,7 +154,7 @@ def robot_items(sheet: RobotSheet) -> dict[str, str]:
         if not sheet.rank_short
         else f"short at {count_of(sheet.rank_short, sheet.positions)} positions, down to {sheet.least_rank}",
         "at rest": f"held at {count_of(sheet.held_at_rest, sheet.positions)} positions",
-        "attainable": f"{count_of(sheet.attainable, sheet.positions)} positions, by any drive, over the whole motion set",
+        "attainable": f"{count_of(sheet.attainable, sheet.positions)} positions, by any drive, over the motion set",
     }
     return items
 

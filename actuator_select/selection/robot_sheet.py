@@ -257,15 +257,17 @@ def _warnings(study: Study, demand: Demand, held: BoolArray) -> tuple[Warned, ..
                 text="Every cable leads upwards: only weight keeps them taut, and nothing pulls the platform down.",
             )
         )
-    if _is_similar(robot):
-        found.append(
-            Warned(
-                code="similar_in_plan",
-                poses=total,
-                text="In plan the platform's anchors are a scaled copy of the frame's: all cable lines of an upright "
-                "platform meet one vertical line, about which no cable can turn it. Let cables change places.",
-            )
+    found += [
+        Warned(
+            code="similar_anchors",
+            poses=total,
+            text=f"Seen along {'xyz'[axis]}, the platform's anchors are a scaled copy of the frame's: all cable lines "
+            f"of an upright platform meet one line along {'xyz'[axis]}, about which no cable can turn it. Let cables "
+            "change places, or give the platform another shape.",
         )
+        for axis in range(3)
+        if _is_similar(robot, axis)
+    ]
     found += demand_warnings(demand)
     if not held.all():
         found.append(
@@ -279,11 +281,12 @@ def _warnings(study: Study, demand: Demand, held: BoolArray) -> tuple[Warned, ..
     return (*found, *_short_cables(robot, demand))
 
 
-def _is_similar(robot: CableRobot) -> bool:
-    """Whether a_i = c + s b_i in plan for all cables of a spatial robot."""
+def _is_similar(robot: CableRobot, axis: int) -> bool:
+    """Whether a_i = c + s b_i for all cables of a spatial robot, seen along an axis."""
     if robot.freedom is not Freedom.SPATIAL:
         return False
-    frame, platform = robot.frame_anchors[:, :2], robot.platform_anchors[:, :2]
+    seen = [other for other in range(3) if other != axis]
+    frame, platform = robot.frame_anchors[:, seen], robot.platform_anchors[:, seen]
     frame, platform = frame - frame.mean(axis=0), platform - platform.mean(axis=0)
     size = float((platform**2).sum())
     if size == 0.0:

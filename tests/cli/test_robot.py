@@ -64,7 +64,7 @@ def test_json_stands_alone_and_has_units_in_its_keys(run: Run) -> None:
         "at_position_m",
         "load",
     }
-    assert "similar_in_plan" in [one["code"] for one in record["warnings"]]
+    assert "similar_anchors" in [one["code"] for one in record["warnings"]]
 
 
 def test_csv_has_a_row_per_cable(run: Run) -> None:

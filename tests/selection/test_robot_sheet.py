@@ -5,7 +5,7 @@ import pytest
 
 from actuator_select.selection.robot_record import COLUMNS, cable_row, robot_items, robot_record
 from actuator_select.selection.robot_sheet import RobotSheet, robot_sheet
-from actuator_select.study import load_study, parse_study, template_text
+from actuator_select.study import TemplateOptions, load_study, parse_study, template_text
 
 TWO_CABLES = """
 name = "two"
@@ -80,10 +80,17 @@ def test_the_frame_and_the_weight_balance() -> None:
 
 def test_the_case_study_is_warned_of() -> None:
     sheet = robot_sheet(load_study("cpr8"))
-    assert {"similar_in_plan", "rank_deficient", "negative_tension_at_rest", "short_cable"} <= codes(sheet)
+    assert {"similar_anchors", "rank_deficient", "negative_tension_at_rest", "short_cable"} <= codes(sheet)
     assert sheet.rank_short == sheet.positions == 216
     assert sheet.least_rank == 5
     assert "short at 216/216" in robot_items(sheet)["rank"]
+
+
+def test_a_robot_with_similar_anchors_seen_from_the_side_is_warned_of() -> None:
+    options = TemplateOptions(hall=(20.0, 5.0, 5.0), platform=(0.5, 0.5, 0.5))
+    sheet = sheet_of(template_text("a", "constrained-8", options))
+    assert sheet.rank_short == sheet.positions
+    assert [one.text[:12] for one in sheet.warnings if one.code == "similar_anchors"] == ["Seen along x"]
 
 
 def test_a_hanging_robot_is_told_from_one_held_from_below() -> None:
