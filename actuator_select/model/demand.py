@@ -178,7 +178,8 @@ def compute_demand(
     Eqs. 1-29 in Filipović & Kevac 2018, doi:10.22190/FUACR1802071F, their worst cases in closed form.
     """
     rows = robot.translation_rows if tension_model is TensionModel.FORCE_ONLY else robot.wrench_rows
-    work = _Work(robot=robot, rows=rows, motion=motion, model=tension_model, wrenches=wrenches)
+    poses = len(positions) * len(orientations)
+    work = _Work(robot=robot, rows=rows, motion=motion, model=tension_model, wrenches=wrenches, poses=poses)
     each_position = np.repeat(positions, len(orientations), axis=0)
     which = np.tile(np.arange(len(orientations)), len(positions))
     parts: list[dict[str, np.ndarray]] = []
@@ -222,8 +223,10 @@ class _Work:
         motion: MotionSet,
         model: TensionModel,
         wrenches: Wrenches,
+        poses: int,
     ) -> None:
         self._robot, self._rows, self._motion, self._model, self._wrenches = robot, rows, motion, model, wrenches
+        self._poses = poses
         self._scale = wrench_scale(robot, rows)
         scaled = wrench_sets(robot, rows, wrenches, motion)
         self._scaled = scaled
@@ -290,6 +293,7 @@ class _Work:
                 upper=np.concatenate([bounds.tension_max, support.upper]),
                 shared=np.arange(cables + controlled) < cables,
             ),
+            poses_in_all=self._poses,
         )
         rank = holding.rank if not controlled else structure_rank(columns[:, :, :cables])[0]
         poses = len(which) * self._cases

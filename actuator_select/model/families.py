@@ -226,8 +226,8 @@ def suspended_eight(hall: FloatArray, platform: FloatArray) -> CableRobot:
 def constrained_eight(hall: FloatArray, platform: FloatArray) -> CableRobot:
     """Eight cables from all corners of a hall, crossed: from the upper corners to the platform's lower vertices.
 
-    Cables of neighbouring corners change places besides, because with cables from corner to corner a platform shaped
-    like the hall could not be kept from turning about the vertical.
+    The upper cables of corners that are neighbours along x change places besides, because with cables from corner to
+    corner a platform shaped like the hall could not be kept from turning.
 
     Parameters
     ----------
@@ -241,8 +241,8 @@ def constrained_eight(hall: FloatArray, platform: FloatArray) -> CableRobot:
     """
     corners = np.array([[-1.0, -1.0], [-1.0, 1.0], [1.0, 1.0], [1.0, -1.0]])
     frame, vertices = [], []
-    for level, height in ((hall[2], -0.5), (0.0, 0.5)):
-        for index, neighbour in enumerate((1, 0, 3, 2)):
+    for level, height, neighbours in ((hall[2], -0.5, (3, 2, 1, 0)), (0.0, 0.5, (0, 1, 2, 3))):
+        for index, neighbour in enumerate(neighbours):
             frame.append([*(corners[index] * hall[:2] / 2.0), level])
             vertices.append([*(corners[neighbour] * platform[:2] / 2.0), height * platform[2]])
     return CableRobot(frame_anchors=np.array(frame), platform_anchors=np.array(vertices), freedom=Freedom.SPATIAL)

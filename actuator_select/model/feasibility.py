@@ -39,7 +39,13 @@ class Holding:
 
 
 def hold_wrenches(
-    columns: FloatArray, wrenches: WrenchSets, which: IntArray, shift: FloatArray, bounds: ColumnBounds
+    columns: FloatArray,
+    wrenches: WrenchSets,
+    which: IntArray,
+    shift: FloatArray,
+    bounds: ColumnBounds,
+    *,
+    poses_in_all: int = 0,
 ) -> Holding:
     """Find the minimax tension and the margin at every pose.
 
@@ -56,6 +62,8 @@ def hold_wrenches(
         Wrench that counterbalances of constant tension supply.
     bounds : ColumnBounds
         Of the M tensions.
+    poses_in_all : int
+        Poses of the whole job where these are a part of it; decides whether the compiled kernel pays.
 
     Returns
     -------
@@ -69,7 +77,7 @@ def hold_wrenches(
         margin=np.full((poses, sets), -np.inf),
         rank=np.zeros(poses, dtype=np.int64),
     )
-    work = poses * comb(count, min(rows, count) - 1 if count else 0)
+    work = max(poses, poses_in_all) * comb(count, min(rows, count) - 1 if count else 0)
     minimax, surely_of_full_rank = _tools(work)
     step = max(1, CELLS_AT_ONCE // max(1, rows * count))
     for start in range(0, poses, step):

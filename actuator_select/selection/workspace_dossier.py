@@ -92,9 +92,15 @@ def build_workspace_dossier(study: Study, progress: Progress | None = None) -> W
 
 def study_sweeps(study: Study, progress: Progress | None = None) -> tuple[tuple[str, str, Sweep], ...]:
     """Title, note and counts of the sweeps that a study asks of its report."""
-    build = text_builder(study.text, study.place, limit=False)
     return tuple(
-        (one.title, one.note, sweep_built(build, parse_sweep(one.keys), progress=progress)) for one in study.table.sweep
+        (
+            one.title,
+            one.note,
+            sweep_built(
+                text_builder(study.text, study.place, one.set, limit=False), parse_sweep(one.keys), progress=progress
+            ),
+        )
+        for one in study.table.sweep
     )
 
 

@@ -211,9 +211,12 @@ def study_builder(
     return text_builder(study_text(study, overrides), str(study), limit=limit)
 
 
-def text_builder(text: str, place: str, *, limit: bool = True) -> Callable[[Mapping[str, object]], Study]:
+def text_builder(
+    text: str, place: str, overrides: Mapping[str, object] | None = None, *, limit: bool = True
+) -> Callable[[Mapping[str, object]], Study]:
     """As `study_builder`, for the text of a study at hand; `place` names it, and says where its files are."""
     content = {key: value for key, value in _parsed(text, place).unwrap().items() if key not in NOT_IN_VARIANTS}
+    apply_overrides(content, overrides or {})
 
     def build(changed: Mapping[str, object]) -> Study:
         own = deepcopy(content)

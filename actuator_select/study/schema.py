@@ -327,6 +327,7 @@ class SweepTable(Table):
 
     title: Text
     keys: Annotated[tuple[Text, ...], Field(min_length=1, max_length=3)]
+    set: dict[str, object] = Field(default_factory=dict)
     note: str = ""
 
 
