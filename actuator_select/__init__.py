@@ -20,8 +20,18 @@ from actuator_select._version import __version__
 if TYPE_CHECKING:
     from actuator_select.database import Catalogue, open_catalogue
     from actuator_select.errors import ActuatorSelectError
+    from actuator_select.model.workspace import WorkspaceKind
     from actuator_select.report import ReportDetails, render_report
-    from actuator_select.selection import Selection, Simulation, StudyEvaluation, evaluate, rank, simulate
+    from actuator_select.selection import (
+        Selection,
+        Simulation,
+        StudyEvaluation,
+        WorkspaceResult,
+        evaluate,
+        evaluate_workspace,
+        rank,
+        simulate,
+    )
     from actuator_select.study import Study, load_study
 
 __all__ = [
@@ -32,8 +42,11 @@ __all__ = [
     "Simulation",
     "Study",
     "StudyEvaluation",
+    "WorkspaceKind",
+    "WorkspaceResult",
     "__version__",
     "evaluate",
+    "evaluate_workspace",
     "load_study",
     "open_catalogue",
     "rank",
@@ -49,7 +62,10 @@ _HOMES = {
     "Simulation": "selection",
     "Study": "study",
     "StudyEvaluation": "selection",
+    "WorkspaceKind": "model.workspace",
+    "WorkspaceResult": "selection",
     "evaluate": "selection",
+    "evaluate_workspace": "selection",
     "load_study": "study",
     "open_catalogue": "database",
     "rank": "selection",

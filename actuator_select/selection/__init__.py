@@ -13,6 +13,8 @@ from actuator_select.selection.selection import (
     rank,
 )
 from actuator_select.selection.simulation import Simulation, simulate
+from actuator_select.selection.sweeps import Sweep, sweep_workspace
+from actuator_select.selection.workspaces import WorkspaceResult, evaluate_workspace, workspace_record
 
 __all__ = [
     "CheckVerdict",
@@ -22,11 +24,16 @@ __all__ = [
     "Selection",
     "Simulation",
     "StudyEvaluation",
+    "Sweep",
     "Warned",
+    "WorkspaceResult",
     "check_catalogue",
     "check_rows",
     "evaluate",
+    "evaluate_workspace",
     "rank",
     "selection_record",
     "simulate",
+    "sweep_workspace",
+    "workspace_record",
 ]
