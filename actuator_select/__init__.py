@@ -20,6 +20,7 @@ from actuator_select._version import __version__
 if TYPE_CHECKING:
     from actuator_select.database import Catalogue, open_catalogue
     from actuator_select.errors import ActuatorSelectError
+    from actuator_select.model.workspace import WorkspaceKind
     from actuator_select.report import ReportDetails, render_report, render_workspace_report
     from actuator_select.selection import (
         Selection,
@@ -41,6 +42,7 @@ __all__ = [
     "Simulation",
     "Study",
     "StudyEvaluation",
+    "WorkspaceKind",
     "WorkspaceResult",
     "__version__",
     "evaluate",
@@ -61,6 +63,7 @@ _HOMES = {
     "Simulation": "selection",
     "Study": "study",
     "StudyEvaluation": "selection",
+    "WorkspaceKind": "model.workspace",
     "WorkspaceResult": "selection",
     "evaluate": "selection",
     "evaluate_workspace": "selection",

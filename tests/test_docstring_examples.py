@@ -9,7 +9,7 @@ import pytest
 import actuator_select
 
 PUBLIC = {name: getattr(actuator_select, name) for name in actuator_select.__all__}
-WITH_EXAMPLES = {"evaluate", "load_study", "open_catalogue", "rank", "render_report", "simulate"}
+WITH_EXAMPLES = {"evaluate", "evaluate_workspace", "load_study", "open_catalogue", "rank", "render_report", "simulate"}
 
 
 @pytest.mark.parametrize("name", [*sorted(WITH_EXAMPLES), "actuator_select"])

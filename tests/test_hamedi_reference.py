@@ -223,8 +223,9 @@ def test_what_the_text_leaves_open_stays_open() -> None:
 def test_a_lateral_force_or_a_moment_may_serve_more_points(plain: dict[str, Demand]) -> None:
     pushed = count(hamedi("45", **{"payload.force_n": [0.0, -50000.0, -100000.0]}))
     assert (int(plain["45"].attainable.sum()), pushed) == (375, 388)
-    large = load_study("hamedi-12")
-    turned = load_study("hamedi-12", {"payload.moment_n_m": [100000.0, 0.0, 0.0]})
+    base = {"robot.r_base_m": 12.0, "robot.r_end_m": 12.0}
+    large = load_study("hamedi", base)
+    turned = load_study("hamedi", {**base, "payload.moment_n_m": [100000.0, 0.0, 0.0]})
     assert (count(large), count(turned)) == (14275, 14400)
 
 

@@ -46,7 +46,7 @@ def command(
 
     \b
     Examples:
-        actuator-select sweep cpr8 payload.mass_kg=1:5:1 --kind static --tension-model wrench_feasible
+        actuator-select sweep cpr8 payload.mass_kg=1:5:1 cables.tension_max_n=[20,40] --tension-model force_only
         actuator-select sweep my-robot.toml cables.tension_max_n=[500,1000,2000] motion.speed_max_m_per_s=0.5:2:0.5
         actuator-select sweep my-robot.toml "payload.force_n[1]=-100:100:20" --plot sweep.svg --format csv
 
@@ -79,7 +79,7 @@ def command(
         _emit_csv(sweep)
     else:
         print_sweep(sweep)
-        console.say(f"Next: {_next_command(sweep, study)}")
+        console.say(f"Next: {_next_command(sweep, study, overrides, tension_model)}")
 
 
 def _picture(sweep: "Sweep") -> "Figure":
@@ -120,11 +120,10 @@ def _emit_csv(sweep: "Sweep") -> None:
     console.emit_csv([*(axis.key for axis in sweep.axes), *COLUMNS], rows)
 
 
-def _next_command(sweep: "Sweep", study: str) -> str:
-    """The workspace at the best combination."""
-    changed = [
-        word
-        for axis, value in zip(sweep.axes, sweep.best.values, strict=True)
-        for word in ("--set", f"{axis.key}={value}")
-    ]
-    return shlex.join(["actuator-select", "workspace", study, *changed])
+def _next_command(sweep: "Sweep", study: str, overrides: tuple[str, ...], tension_model: str | None) -> str:
+    """The same workspace at the best combination."""
+    best = [f"{axis.key}={value}" for axis, value in zip(sweep.axes, sweep.best.values, strict=True)]
+    words = ["--kind", sweep.kind.value, "--orientations", sweep.over.value]
+    words += ["--tension-model", tension_model] if tension_model is not None else []
+    words += [word for one in (*overrides, *best) for word in ("--set", one)]
+    return shlex.join(["actuator-select", "workspace", study, *words])

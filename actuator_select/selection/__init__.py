@@ -14,6 +14,8 @@ from actuator_select.selection.selection import (
 )
 from actuator_select.selection.simulation import Simulation, simulate
 from actuator_select.selection.workspaces import WorkspaceResult, evaluate_workspace
+from actuator_select.selection.sweeps import Sweep, sweep_workspace
+from actuator_select.selection.workspaces import WorkspaceResult, evaluate_workspace, workspace_record
 
 __all__ = [
     "CheckVerdict",
@@ -23,6 +25,7 @@ __all__ = [
     "Selection",
     "Simulation",
     "StudyEvaluation",
+    "Sweep",
     "Warned",
     "WorkspaceResult",
     "check_catalogue",
@@ -32,4 +35,6 @@ __all__ = [
     "rank",
     "selection_record",
     "simulate",
+    "sweep_workspace",
+    "workspace_record",
 ]

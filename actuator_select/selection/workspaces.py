@@ -148,8 +148,8 @@ def evaluate_workspace(
     Examples
     --------
     >>> result = evaluate_workspace(load_study("cpr8"), kind=WorkspaceKind.STATIC)
-    >>> result.poses, result.tension_model.value
-    (216, 'pseudo_inverse')
+    >>> result.tension_model.value, result.feasible_poses, result.poses
+    ('pseudo_inverse', 44, 216)
     """
     if kind is WorkspaceKind.TWIST and not np.isfinite(study.robot.bounds.speed_max).any():
         problem = Problem(
