@@ -13,7 +13,6 @@ from actuator_select.selection.selection import (
     rank,
 )
 from actuator_select.selection.simulation import Simulation, simulate
-from actuator_select.selection.workspaces import WorkspaceResult, evaluate_workspace
 from actuator_select.selection.sweeps import Sweep, sweep_workspace
 from actuator_select.selection.workspaces import WorkspaceResult, evaluate_workspace, workspace_record
 
