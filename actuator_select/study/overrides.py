@@ -98,6 +98,8 @@ def apply_overrides(document: MutableMapping[str, Any], overrides: Mapping[str, 
                 if isinstance(following, int):
                     _default_list(container, steps[: depth + 1])
                 container = container[step]
+                if isinstance(container, list) and len(container) == 1 and isinstance(following, str):
+                    container = container[0]  # the only table of its list, such as a single [[payload]]
             container[steps[-1]] = value
         except (KeyError, IndexError, TypeError, TOMLKitError) as error:
             raise InvalidStudy(
