@@ -306,7 +306,7 @@ def _build(content: dict[str, object], text: str, place: str, source: str, *, li
     orientations = _orientations(workspace)
     loads = tuple(_load(one) for one in table.payload)
     if limit:
-        refuse_too_many_poses(table, robot.cables, len(orientations), place)
+        refuse_too_many_poses(table, robot, len(orientations), place)
     study = Study(
         name=table.name,
         place=source,

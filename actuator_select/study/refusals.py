@@ -1,6 +1,6 @@
 """Questions that cannot be posed: too large, or about a robot that cannot be."""
 
-from math import prod
+from math import comb, prod
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -8,41 +8,55 @@ import numpy as np
 from actuator_select.errors import InvalidStudy, Problem
 from actuator_select.model.arrays import FloatArray
 from actuator_select.model.kinematics import LEAST_CABLE_LENGTH, rotation_matrix
+from actuator_select.model.robot import CableRobot
+from actuator_select.model.tension import TensionModel
 from actuator_select.study.schema import StudyTable
 
 if TYPE_CHECKING:
     from actuator_select.study.loading import Study
 
 MOST_CABLE_POSES = 8_000_000  # poses times cables
-BYTES_PER_CABLE_POSE = 320  # of the demand, measured with `python -m tests.benchmarks.run`
-SECONDS_PER_CABLE_POSE = 4e-6  # of eight cables with six degrees of freedom on two cores
+MOST_SECONDS = 3600.0
+BYTES_PER_CABLE_POSE = 320  # of the demand, measured
+SECONDS_PER_CABLE_POSE = 2e-6  # of geometry and motion, measured on two cores
+SECONDS_PER_NORMAL = 3e-7  # of hyperplane shifting, measured on two cores
 
 
-def refuse_too_many_poses(table: StudyTable, cables: int, orientations: int, place: str) -> None:
-    """Refuse grids whose demand takes very much time and memory, with an estimate of both.
+def refuse_too_many_poses(table: StudyTable, robot: CableRobot, orientations: int, place: str) -> None:
+    """Refuse questions that take very much time or memory, with an estimate of both.
 
     Raises
     ------
     InvalidStudy
-        Beyond `MOST_CABLE_POSES`.
+        Beyond `MOST_CABLE_POSES` or `MOST_SECONDS`.
     """
     workspace, loads = table.workspace, len(table.payload)
-    poses, most = (
-        prod(workspace.points) * orientations * loads * max(1, len(table.motion.case)),
-        MOST_CABLE_POSES // cables,
+    poses = prod(workspace.points) * orientations * loads * max(1, len(table.motion.case))
+    most = MOST_CABLE_POSES // robot.cables
+    seconds = poses * (SECONDS_PER_CABLE_POSE * robot.cables + SECONDS_PER_NORMAL * _normals(table, robot))
+    if poses <= most and seconds <= MOST_SECONDS:
+        return
+    loaded = f" with {loads} loads" if loads > 1 else ""
+    memory = poses * robot.cables * BYTES_PER_CABLE_POSE / 1e9
+    problem = Problem(
+        place="workspace.points",
+        value=f"{list(workspace.points)} at {orientations} orientations{loaded} are {poses:,} poses, some "
+        f"{_time(seconds)} and {memory:,.1f} GB of memory",
+        expected=f"at most {most:,} with {robot.cables} cables, and {_time(MOST_SECONDS)}",
+        remedy="take a coarser grid, or parts of the workspace one after the other with box_m; "
+        "--no-limit goes ahead all the same",
     )
-    if poses > most:
-        work = poses * cables
-        loaded = f" with {loads} loads" if loads > 1 else ""
-        problem = Problem(
-            place="workspace.points",
-            value=f"{list(workspace.points)} at {orientations} orientations{loaded} are {poses:,} poses, some "
-            f"{_time(work * SECONDS_PER_CABLE_POSE)} and {work * BYTES_PER_CABLE_POSE / 1e9:,.1f} GB of memory",
-            expected=f"at most {most:,} with {cables} cables",
-            remedy="take a coarser grid, or parts of the workspace one after the other with box_m; "
-            "--no-limit goes ahead all the same",
-        )
-        raise InvalidStudy(f"{place} does not hold", [problem])
+    raise InvalidStudy(f"{place} does not hold", [problem])
+
+
+def _normals(table: StudyTable, robot: CableRobot) -> int:
+    """Hyperplanes of one pose, by which the time of a tension model with bounded tensions goes."""
+    model = TensionModel(table.tension.model)
+    if model.lets_cables_push:
+        return 0
+    equations = len(robot.translation_rows if model is TensionModel.FORCE_ONLY else robot.wrench_rows)
+    columns = robot.cables + sum(rope.is_controlled for rope in robot.counterbalances)
+    return comb(columns, min(equations, columns) - 1)
 
 
 def _time(seconds: float) -> str:
