@@ -69,7 +69,7 @@ def test_the_starter_study_works_as_it_stands() -> None:
         (
             "workspace.points",
             [1000, 1000, 1000],
-            "are 1,000,000,000 poses, some 9 h and 2,560.0 GB of memory, expected at most 1,000,000 with 8 cables",
+            "are 1,000,000,000 poses, some 4 h and 2,560.0 GB of memory, expected at most 1,000,000 with 8 cables",
         ),
         ("motion", SAMPLED | {"velocity_intervals": 1}, "motion.velocity_intervals: 1, expected at least 2"),
         ("motion", SAMPLED | {"velocity_intervals": 30000}, "motion.velocity_intervals: 30000, expected at most 60"),
