@@ -77,7 +77,7 @@ def command(
 
     Every load of the study has to hold. Area or volume is an estimate: positions times the cell of the grid, with the
     interval from the cells that are surely inside, as far as the grid tells, to these and those on the border. CSV
-    gives the verdict and the margin of every position.
+    gives the verdict, the margin and the minimax tension of every position.
 
     That nothing is feasible is a result, with its reasons; the exit status is 0.
     """
@@ -167,6 +167,9 @@ def _figures(result: "WorkspaceResult") -> list[tuple[str, str]]:
     if result.connected_percent is not None:
         home = ", ".join(f"{value:g}" for value in result.study.table.workspace.home_m or ())
         rows.append(("connected to home", f"{result.connected_percent:.1f} % of the feasible, home ({home}) m"))
+    if result.largest_tension is not None:
+        least = "largest tension" if result.tension_model.lets_cables_push else "largest minimax tension"
+        rows.append((least, f"{result.largest_tension:.4g} N over the feasible positions"))
     margins = result.margin[result.feasible]
     if len(margins) and isfinite(float(margins.min())):
         rows.append(("least margin inside", f"{float(margins.min()):.4g} {result.margin_unit}"))
@@ -176,12 +179,18 @@ def _figures(result: "WorkspaceResult") -> list[tuple[str, str]]:
 def _emit_csv(result: "WorkspaceResult") -> None:
     margin_column = {"N": "margin_n", "m": "margin_m", "m/s": "margin_m_per_s"}[result.margin_unit]
     rows = [
-        [*(float(f"{value:.10g}") for value in position), int(feasible), _margin(float(margin)), int(apart)]
-        for position, feasible, margin, apart in zip(
-            result.study.positions, result.feasible, result.margin, result.apart, strict=True
+        [
+            *(float(f"{value:.10g}") for value in position),
+            int(feasible),
+            _margin(float(margin)),
+            None if isnan(tension) or isinf(tension) else float(f"{tension:.10g}"),
+            int(apart),
+        ]
+        for position, feasible, margin, tension, apart in zip(
+            result.study.positions, result.feasible, result.margin, result.tension, result.apart, strict=True
         )
     ]
-    console.emit_csv(["x_m", "y_m", "z_m", "feasible", margin_column, "apart"], rows)
+    console.emit_csv(["x_m", "y_m", "z_m", "feasible", margin_column, "tension_n", "apart"], rows)
 
 
 def _margin(value: float) -> float | str | None:

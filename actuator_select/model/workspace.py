@@ -72,6 +72,10 @@ class PositionVerdicts:
         How far from the border of what is possible, negative beyond it: of the wrench (moments divided by the robot's
         characteristic length), or under the pseudo-inverse of the tension to its bound [N]; of the cable length where
         `kind` is reachable [m]; of the cable speed where it is twist-feasible [m/s].
+    tension : (P,) array
+        Least common limit of the cable tensions with which the position is held in its hardest case (inclusion: at
+        its easiest orientation); under the pseudo-inverse the largest magnitude of a tension. Infinite where infeasible, NaN
+        of kinds that do not rest on tensions. [N]
     short_of_rank : (P,) array of bool
         The structure matrix is short of rank at one of the considered orientations.
     unreachable : (P,) array of bool
@@ -81,6 +85,7 @@ class PositionVerdicts:
     feasible: BoolArray
     apart: BoolArray
     margin: FloatArray
+    tension: FloatArray
     short_of_rank: BoolArray
     unreachable: BoolArray
 
@@ -92,6 +97,7 @@ class _PoseVerdicts:
     feasible: BoolArray
     near: BoolArray
     margin: FloatArray
+    tension: FloatArray
     short_of_rank: BoolArray
     unreachable: BoolArray
 
@@ -159,6 +165,7 @@ def judge_positions(  # noqa: PLR0913 - as `compute_demand`, and three choices
         feasible=np.concatenate([part.feasible for part in parts]),
         apart=np.concatenate([part.apart for part in parts]),
         margin=np.concatenate([part.margin for part in parts]),
+        tension=np.concatenate([part.tension for part in parts]),
         short_of_rank=np.concatenate([part.short_of_rank for part in parts]),
         unreachable=np.concatenate([part.unreachable for part in parts]),
     )
@@ -187,6 +194,7 @@ def _by_tensions(robot: CableRobot, demand: Demand, orientations: int) -> _PoseV
         feasible=_every(feasible.reshape(shape), 2),
         near=_some(_too_near(robot, demand.lengths).reshape(shape), 2),
         margin=margin.reshape(shape).min(axis=2),
+        tension=np.where(feasible, demand.force.max(axis=1), np.inf).reshape(shape).max(axis=2),
         short_of_rank=_some(demand.rank_deficient.reshape(shape), 2),
         unreachable=_some(demand.unreachable.reshape(shape), 2),
     )
@@ -229,6 +237,7 @@ def _by_geometry(
         feasible=feasible.reshape(shape),
         near=_too_near(robot, geometry.lengths).reshape(shape),
         margin=margin.reshape(shape),
+        tension=np.full(shape, np.nan),
         short_of_rank=(structure_rank(scaled)[0] < len(rows)).reshape(shape),
         unreachable=unreachable.reshape(shape),
     )
@@ -255,17 +264,20 @@ def _over_orientations(poses: _PoseVerdicts, over: OrientationRule) -> PositionV
     if over is OrientationRule.INCLUSION:
         apart = _every(poses.near, 1)
         margin = np.where(poses.near, -np.inf, poses.margin).max(axis=1)
+        tension = np.where(poses.near, np.inf, poses.tension).min(axis=1)
         feasible = _some(poses.feasible & ~poses.near, 1)
         unreachable = _every(poses.unreachable, 1)
     else:
         apart = _some(poses.near, 1)
         margin = poses.margin.min(axis=1)
+        tension = poses.tension.max(axis=1)
         feasible = _every(poses.feasible, 1) & ~apart
         unreachable = _some(poses.unreachable, 1)
     return PositionVerdicts(
         feasible=feasible,
         apart=apart,
         margin=margin,
+        tension=tension,
         short_of_rank=_some(poses.short_of_rank, 1) & ~apart,
         unreachable=unreachable & ~apart,
     )

@@ -49,6 +49,9 @@ class WorkspaceResult:
         Positions nearer to an anchor than the least cable length, which are not judged.
     margin : (P,) array
         Distance from the border of what is possible, negative beyond it. [`margin_unit`]
+    tension : (P,) array
+        Minimax tension; under the pseudo-inverse the largest magnitude of a tension. Infinite where infeasible, NaN of
+        kinds that do not rest on tensions. [N]
     poses : int
         Positions judged: those of the grid but for those set apart.
     feasible_poses : int
@@ -74,6 +77,7 @@ class WorkspaceResult:
     feasible: BoolArray
     apart: BoolArray
     margin: FloatArray
+    tension: FloatArray
     poses: int
     feasible_poses: int
     singular_poses: int
@@ -102,6 +106,12 @@ class WorkspaceResult:
     def interval(self) -> tuple[float, float] | None:
         """The measure from the cells surely inside to these and those on the border."""
         return None if self.measured is None else (self.measured.inner, self.measured.outer)
+
+    @property
+    def largest_tension(self) -> float | None:
+        """Largest tension over the feasible positions; None where there are none, or tensions do not decide. [N]"""
+        values = self.tension[self.feasible]
+        return float(values.max()) if len(values) and np.isfinite(values).all() else None
 
     @property
     def margin_unit(self) -> str:
@@ -172,6 +182,7 @@ def evaluate_workspace(
         feasible=verdicts.feasible,
         apart=verdicts.apart,
         margin=verdicts.margin,
+        tension=verdicts.tension,
         poses=poses,
         feasible_poses=feasible_poses,
         singular_poses=int(verdicts.short_of_rank.sum()),
@@ -197,6 +208,7 @@ def workspace_record(result: WorkspaceResult) -> dict[str, object]:
         "measure": rounded(result.measure),
         "measure_unit": result.unit,
         "measure_interval": None if result.interval is None else [rounded(end) for end in result.interval],
+        "largest_tension_n": rounded(result.largest_tension),
         "singular_poses": result.singular_poses,
         "too_near_poses": result.too_near_poses,
         "connected_percent": None if connected is None else round(connected, 4),

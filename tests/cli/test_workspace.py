@@ -86,7 +86,7 @@ def test_csv_has_a_row_per_position(run: Run) -> None:
     _, table, _ = run("workspace", "hanging.toml", "--format", "csv")
     _, record, _ = run("workspace", "hanging.toml", "--format", "json")
     rows = list(csv.DictReader(io.StringIO(table)))
-    assert list(rows[0]) == ["x_m", "y_m", "z_m", "feasible", "margin_n", "apart"]
+    assert list(rows[0]) == ["x_m", "y_m", "z_m", "feasible", "margin_n", "tension_n", "apart"]
     assert len(rows) == 72
     assert sum(row["feasible"] == "1" for row in rows) == json.loads(record)["feasible_poses"]
     assert all(float(row["margin_n"]) >= 0.0 for row in rows if row["feasible"] == "1")

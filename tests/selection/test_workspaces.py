@@ -58,6 +58,7 @@ KEYS = {
     "kind",
     "orientations",
     "tension_model",
+    "largest_tension_n",
     "study",
     "reasons",
     "warnings",
