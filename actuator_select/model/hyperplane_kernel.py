@@ -208,10 +208,11 @@ def _shift(  # type: ignore[no-untyped-def]  # noqa: ANN202, C901, PLR0912, PLR0
     mirror, weights = np.empty(rank), np.empty(count)
     pulls = np.empty(count)
     sizes = np.empty(sets)
-    start = 0.0
+    total, has, fixed, least_pull = np.empty(2), np.empty(2), np.empty(2), np.empty(2)
+    start, lowest = 0.0, np.inf
     for column in range(count):
         if shared[column]:
-            start = max(start, lower[column])
+            start, lowest = max(start, lower[column]), min(lowest, upper[column])
     for pose in range(poses):
         index = which[pose]
         base = 0.0
@@ -241,11 +242,24 @@ def _shift(  # type: ignore[no-untyped-def]  # noqa: ANN202, C901, PLR0912, PLR0
             normal = basis[level, 0]
             bounds_margin = independent[level]
             level -= 1
+            # Sums over the columns that pull along the normal, and over those that pull against it.
+            total[:], has[:], fixed[:], least_pull[:] = 0.0, 0.0, 0.0, 0.0
             for column in range(count):
                 pull = 0.0
                 for row in range(rank):
                     pull += normal[row] * table[pose, column, row]
-                pulls[column] = pull if abs(pull) > COLUMN_TOLERANCE * norms[pose, column] else 0.0
+                size = abs(pull)
+                if size <= COLUMN_TOLERANCE * norms[pose, column]:
+                    pulls[column] = 0.0
+                    continue
+                pulls[column] = pull
+                side = 0 if pull > 0.0 else 1
+                least_pull[side] += size * lower[column]
+                if shared[column]:
+                    total[side] += size
+                    has[side] += size * upper[column]
+                else:
+                    fixed[side] += size * upper[column]
             supplied = 0.0
             for row in range(rank):
                 supplied += normal[row] * shift[pose, row]
@@ -269,20 +283,15 @@ def _shift(  # type: ignore[no-untyped-def]  # noqa: ANN202, C901, PLR0912, PLR0
                     reach += np.sqrt(square)
                 for side in range(2):
                     sign = 1.0 - 2.0 * side
-                    excess, has = sign * middle + reach, 0.0
+                    excess = sign * middle + reach + least_pull[1 - side] - fixed[side]
+                    if bounds_margin:
+                        margin[pose, one] = min(margin[pose, one], has[side] - excess)
+                    found = least[pose, one]
+                    if excess <= sizes[one] or found == np.inf:
+                        continue
+                    if found <= lowest and excess <= found * total[side]:
+                        continue
                     for column in range(count):
                         pull = sign * pulls[column]
-                        weights[column] = 0.0
-                        if pull < 0.0:
-                            excess -= pull * lower[column]
-                        elif pull > 0.0:
-                            if shared[column]:
-                                weights[column] = pull
-                                has += pull * upper[column]
-                            else:
-                                excess -= pull * upper[column]
-                    if bounds_margin:
-                        margin[pose, one] = min(margin[pose, one], has - excess)
-                    if least[pose, one] < np.inf:
-                        found = _level(excess, weights, upper, count, sizes[one])
-                        least[pose, one] = max(least[pose, one], found)
+                        weights[column] = pull if pull > 0.0 and shared[column] else 0.0
+                    least[pose, one] = max(found, _level(excess, weights, upper, count, sizes[one]))

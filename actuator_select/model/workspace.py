@@ -74,8 +74,8 @@ class PositionVerdicts:
         `kind` is reachable [m]; of the cable speed where it is twist-feasible [m/s].
     tension : (P,) array
         Least common limit of the cable tensions with which the position is held in its hardest case (inclusion: at
-        its easiest orientation); under the pseudo-inverse the largest magnitude of a tension. Infinite where infeasible, NaN
-        of kinds that do not rest on tensions. [N]
+        its easiest orientation); under the pseudo-inverse the largest magnitude of a tension. Infinite where
+        infeasible, NaN of kinds that do not rest on tensions. [N]
     short_of_rank : (P,) array of bool
         The structure matrix is short of rank at one of the considered orientations.
     unreachable : (P,) array of bool
