@@ -81,9 +81,11 @@ def command(
 
 def print_sweep(sweep: "Sweep") -> None:
     """Print a row per combination, and the best one."""
+    from actuator_select.selection.workspaces import unit_words
+
     keys = [axis.key for axis in sweep.axes]
     unit = sweep.points[0].measure_unit
-    shown = "" if unit is None else f" [{unit.replace('2', '²').replace('3', '³')}]"
+    shown = "" if unit is None else f" [{unit_words(unit)}]"
     click.echo(
         f"Study {sweep.study.name}, {sweep.kind.value} workspace, orientations: {sweep.over.value}, "
         f"tensions: {sweep.tension_model.value}"

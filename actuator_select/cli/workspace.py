@@ -143,10 +143,11 @@ def print_workspace(result: "WorkspaceResult") -> None:
 
 def _figures(result: "WorkspaceResult") -> list[tuple[str, str]]:
     from actuator_select.selection.wording import count_of
+    from actuator_select.selection.workspaces import unit_words
 
     rows = [("feasible", count_of(result.feasible_poses, result.poses) if result.poses else "no position judged")]
     if result.measured is not None and result.unit is not None:
-        unit = result.unit.replace("2", "²").replace("3", "³")
+        unit = unit_words(result.unit)
         inner, outer = result.measured.inner, result.measured.outer
         name = {1: "length", 2: "area", 3: "volume"}[result.measured.dimension]
         rows.append(
