@@ -27,12 +27,16 @@ if TYPE_CHECKING:
         Simulation,
         StudyEvaluation,
         WorkspaceResult,
+        elastic_lengths,
         evaluate,
         evaluate_workspace,
         rank,
+        robot_sheet,
+        rope_tensions,
         simulate,
+        sweep_workspace,
     )
-    from actuator_select.study import Study, load_study
+    from actuator_select.study import Study, SweepAxis, load_study
 
 __all__ = [
     "ActuatorSelectError",
@@ -42,9 +46,11 @@ __all__ = [
     "Simulation",
     "Study",
     "StudyEvaluation",
+    "SweepAxis",
     "WorkspaceKind",
     "WorkspaceResult",
     "__version__",
+    "elastic_lengths",
     "evaluate",
     "evaluate_workspace",
     "load_study",
@@ -52,7 +58,10 @@ __all__ = [
     "rank",
     "render_report",
     "render_workspace_report",
+    "robot_sheet",
+    "rope_tensions",
     "simulate",
+    "sweep_workspace",
 ]
 
 _HOMES = {
@@ -63,8 +72,10 @@ _HOMES = {
     "Simulation": "selection",
     "Study": "study",
     "StudyEvaluation": "selection",
+    "SweepAxis": "study",
     "WorkspaceKind": "model.workspace",
     "WorkspaceResult": "selection",
+    "elastic_lengths": "selection",
     "evaluate": "selection",
     "evaluate_workspace": "selection",
     "load_study": "study",
@@ -72,7 +83,10 @@ _HOMES = {
     "rank": "selection",
     "render_report": "report",
     "render_workspace_report": "report",
+    "robot_sheet": "selection",
+    "rope_tensions": "selection",
     "simulate": "selection",
+    "sweep_workspace": "selection",
 }
 
 

@@ -115,6 +115,16 @@ def format_option(*formats: str) -> Callable[[_Command], _Command]:
     )
 
 
+def plot_option(what: str) -> Callable[[_Command], _Command]:
+    """``--plot``: which file a picture goes to; `what` begins its help, ``Draw the robot``."""
+    return click.option(
+        "--plot",
+        type=click.Path(path_type=Path, dir_okay=False),
+        metavar="FILE",
+        help=f"{what}, as .svg, .png or .pdf.",
+    )
+
+
 def plot_writer(plot: Path | None) -> Callable[["Figure"], None]:
     """Check the name of a ``--plot`` file before any work, and give back what writes a figure there.
 
@@ -123,18 +133,19 @@ def plot_writer(plot: Path | None) -> Callable[["Figure"], None]:
     click.BadParameter
         If the name does not say a format.
     """
+    if plot is None:
+        return lambda _: None
     from actuator_select._resources import replace_atomically
     from actuator_select.report.style import IMAGE_FORMATS, image_bytes
 
-    suffix = plot.suffix.lower().removeprefix(".") if plot is not None else ""
-    if plot is not None and suffix not in IMAGE_FORMATS:
+    suffix = plot.suffix.lower().removeprefix(".")
+    if suffix not in IMAGE_FORMATS:
         raise click.BadParameter(
             f"{plot}: expected a name that ends in {', '.join(IMAGE_FORMATS)}", param_hint="--plot"
         )
 
     def write(figure: "Figure") -> None:
-        if plot is not None:
-            replace_atomically(plot, image_bytes(figure, suffix))
-            console.say(f"Wrote {plot}")
+        replace_atomically(plot, image_bytes(figure, suffix))
+        console.say(f"Wrote {plot}")
 
     return write

@@ -1,7 +1,6 @@
 """``actuator-select robot``."""
 
 import shlex
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
@@ -9,9 +8,9 @@ import click
 from actuator_select.cli import console, options
 
 if TYPE_CHECKING:
-    from actuator_select.selection.robot_sheet import RobotSheet
+    from pathlib import Path
 
-IMAGE_SUFFIXES = (".svg", ".png", ".pdf")
+    from actuator_select.selection.robot_sheet import RobotSheet
 
 
 @click.group("robot")
@@ -22,14 +21,9 @@ def command() -> None:
 @command.command("show")
 @click.argument("study", metavar="STUDY")
 @options.set_option
-@click.option(
-    "--plot",
-    type=click.Path(path_type=Path, dir_okay=False),
-    metavar="FILE",
-    help="Draw the robot, as .svg, .png or .pdf.",
-)
+@options.plot_option("Draw the robot")
 @options.format_option("table", "json", "csv")
-def show(study: str, overrides: tuple[str, ...], plot: Path | None, output_format: str) -> None:
+def show(study: str, overrides: tuple[str, ...], plot: "Path | None", output_format: str) -> None:
     """Show a robot: rope lengths, forces on the frame, cable speeds, and what to mind.
 
     \b
@@ -44,13 +38,14 @@ def show(study: str, overrides: tuple[str, ...], plot: Path | None, output_forma
     from actuator_select.selection.robot_sheet import robot_sheet
     from actuator_select.study import load_study, parse_overrides
 
-    if plot is not None and plot.suffix.lower() not in IMAGE_SUFFIXES:
-        raise click.BadParameter(f"{plot}: expected a name that ends in svg, png, pdf", param_hint="--plot")
+    draw = options.plot_writer(plot)
     loaded = load_study(study, parse_overrides(overrides))
     with console.progress("Looking at the robot") as progress:
         sheet = robot_sheet(loaded, progress)
     if plot is not None:
-        _write_plot(sheet, plot)
+        from actuator_select.report.robot_figure import robot_figure
+
+        draw(robot_figure(sheet.study))
     if output_format == "json":
         console.emit_json(robot_record(sheet))
     elif output_format == "csv":
@@ -59,15 +54,6 @@ def show(study: str, overrides: tuple[str, ...], plot: Path | None, output_forma
         print_robot(sheet)
         typed = [word for one in overrides for word in ("--set", one)]
         console.say(f"Next: {shlex.join(['actuator-select', 'rank', study, *typed])}")
-
-
-def _write_plot(sheet: "RobotSheet", plot: Path) -> None:
-    from actuator_select._resources import replace_atomically
-    from actuator_select.report.robot_figure import robot_figure
-    from actuator_select.report.style import image_bytes
-
-    replace_atomically(plot, image_bytes(robot_figure(sheet.study), plot.suffix.lower().removeprefix(".")))
-    console.say(f"Wrote {plot}")
 
 
 def print_robot(sheet: "RobotSheet") -> None:

@@ -1,7 +1,6 @@
 """``actuator-select simulate``."""
 
 from math import isnan
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -9,6 +8,8 @@ import click
 from actuator_select.cli import console, options
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from actuator_select.selection import Simulation
 
 
@@ -44,12 +45,7 @@ class Vector(click.ParamType[tuple[float, ...]]):
     help="Angles ψ, θ, φ of the platform, constant over the move [rad].",
 )
 @options.set_option
-@click.option(
-    "--plot",
-    type=click.Path(path_type=Path, dir_okay=False),
-    metavar="FILE",
-    help="Draw the histories with their limits, as .svg, .png or .pdf.",
-)
+@options.plot_option("Draw the histories with their limits")
 @options.format_option("table", "json", "csv")
 @options.database_option
 def command(
@@ -59,7 +55,7 @@ def command(
     stop: tuple[float, float, float],
     orientation: tuple[float, float, float],
     overrides: tuple[str, ...],
-    plot: Path | None,
+    plot: "Path | None",
     output_format: str,
     database: str | None,
 ) -> None:
@@ -80,12 +76,15 @@ def command(
     from actuator_select.selection.records import simulation_record
     from actuator_select.study import load_study, parse_overrides
 
+    draw = options.plot_writer(plot)
     loaded = load_study(study, parse_overrides(overrides))
     with open_catalogue(database) as catalogue:
         console.say_all(catalogue.notices)
         run = simulate(loaded, catalogue, actuator, start=start, stop=stop, orientation=orientation)
     if plot is not None:
-        _write_plot(run, plot)
+        from actuator_select.report.drive_figures import simulation_figure
+
+        draw(simulation_figure(run))
     if output_format == "json":
         console.emit_json(simulation_record(run))
     elif output_format == "csv":
@@ -93,20 +92,6 @@ def command(
         console.emit_csv(list(frame.columns), frame.astype(object).where(frame.notna(), None).to_numpy().tolist())
     else:
         print_simulation(run)
-
-
-def _write_plot(run: "Simulation", plot: Path) -> None:
-    from actuator_select._resources import replace_atomically
-    from actuator_select.report.drive_figures import simulation_figure
-    from actuator_select.report.style import IMAGE_FORMATS, image_bytes
-
-    suffix = plot.suffix.lower().removeprefix(".")
-    if suffix not in IMAGE_FORMATS:
-        raise click.BadParameter(
-            f"{plot}: expected a name that ends in {', '.join(IMAGE_FORMATS)}", param_hint="--plot"
-        )
-    replace_atomically(plot, image_bytes(simulation_figure(run), suffix))
-    console.say(f"Wrote {plot}")
 
 
 def print_simulation(run: "Simulation") -> None:

@@ -1,7 +1,6 @@
 """``actuator-select sweep``."""
 
 import shlex
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
@@ -9,7 +8,7 @@ import click
 from actuator_select.cli import console, options
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+    from pathlib import Path
 
     from actuator_select.selection.sweeps import Sweep, SweepPoint
 
@@ -20,12 +19,8 @@ if TYPE_CHECKING:
 @options.workspace_options
 @options.set_option
 @options.format_option("table", "csv", "json")
-@click.option(
-    "--plot",
-    type=click.Path(path_type=Path),
-    metavar="FILE",
-    help="Draw area, volume or share over the first key to a .svg, .png or .pdf file: a line per value of the second "
-    "key, a map where both have many.",
+@options.plot_option(
+    "Draw area, volume or share over the first key (a line per value of the second key, a map where both have many)"
 )
 @options.no_limit_option
 def command(
@@ -36,7 +31,7 @@ def command(
     tension_model: str | None,
     overrides: tuple[str, ...],
     output_format: str,
-    plot: Path | None,
+    plot: "Path | None",
     no_limit: bool,
 ) -> None:
     """Find the workspace over ranges of one or more keys of the study.
@@ -72,7 +67,9 @@ def command(
             progress=progress,
         )
     if plot is not None:
-        draw(_picture(sweep))
+        from actuator_select.report.robot_workspace import sweep_figure
+
+        draw(sweep_figure(sweep))
     if output_format == "json":
         console.emit_json(sweep_record(sweep))
     elif output_format == "csv":
@@ -82,17 +79,13 @@ def command(
         console.say(f"Next: {_next_command(sweep, study, overrides, tension_model)}")
 
 
-def _picture(sweep: "Sweep") -> "Figure":
-    from actuator_select.report.robot_workspace import sweep_figure
-
-    return sweep_figure(sweep)
-
-
 def print_sweep(sweep: "Sweep") -> None:
     """Print a row per combination, and the best one."""
+    from actuator_select.selection.workspaces import unit_words
+
     keys = [axis.key for axis in sweep.axes]
     unit = sweep.points[0].measure_unit
-    shown = "" if unit is None else f" [{unit.replace('2', '²').replace('3', '³')}]"
+    shown = "" if unit is None else f" [{unit_words(unit)}]"
     click.echo(
         f"Study {sweep.study.name}, {sweep.kind.value} workspace, orientations: {sweep.over.value}, "
         f"tensions: {sweep.tension_model.value}"

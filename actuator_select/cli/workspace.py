@@ -2,7 +2,6 @@
 
 import shlex
 from math import isfinite, isinf, isnan
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
@@ -10,7 +9,7 @@ import click
 from actuator_select.cli import console, options
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+    from pathlib import Path
 
     from actuator_select.model.tension import TensionModel
     from actuator_select.model.workspace import OrientationRule, WorkspaceKind
@@ -23,12 +22,7 @@ if TYPE_CHECKING:
 @options.workspace_options
 @options.set_option
 @options.format_option("table", "json", "csv")
-@click.option(
-    "--plot",
-    type=click.Path(path_type=Path),
-    metavar="FILE",
-    help="Draw the workspace to a .svg, .png or .pdf file.",
-)
+@options.plot_option("Draw the workspace")
 @click.option(
     "--counterbalance-interval",
     is_flag=True,
@@ -51,7 +45,7 @@ def command(
     tension_model: str | None,
     overrides: tuple[str, ...],
     output_format: str,
-    plot: Path | None,
+    plot: "Path | None",
     counterbalance_interval: bool,
     counterbalance: int,
     no_limit: bool,
@@ -104,7 +98,9 @@ def command(
             progress=progress,
         )
     if plot is not None:
-        draw(_picture(result))
+        from actuator_select.report.robot_workspace import workspace_map
+
+        draw(workspace_map(result))
     if output_format == "json":
         console.emit_json(workspace_record(result))
     elif output_format == "csv":
@@ -131,12 +127,6 @@ def _show_tensions(
         print_tensions(found)
 
 
-def _picture(result: "WorkspaceResult") -> "Figure":
-    from actuator_select.report.robot_workspace import workspace_map
-
-    return workspace_map(result)
-
-
 def print_workspace(result: "WorkspaceResult") -> None:
     """Print what the share is of, the figures, reasons and warnings."""
     from actuator_select.selection.workspaces import workspace_basis
@@ -153,10 +143,11 @@ def print_workspace(result: "WorkspaceResult") -> None:
 
 def _figures(result: "WorkspaceResult") -> list[tuple[str, str]]:
     from actuator_select.selection.wording import count_of
+    from actuator_select.selection.workspaces import unit_words
 
     rows = [("feasible", count_of(result.feasible_poses, result.poses) if result.poses else "no position judged")]
     if result.measured is not None and result.unit is not None:
-        unit = result.unit.replace("2", "²").replace("3", "³")
+        unit = unit_words(result.unit)
         inner, outer = result.measured.inner, result.measured.outer
         name = {1: "length", 2: "area", 3: "volume"}[result.measured.dimension]
         rows.append(

@@ -14,7 +14,7 @@ from actuator_select.model.kinematics import cable_geometry
 from actuator_select.model.motion import MotionKind, MotionSet, extent
 from actuator_select.model.robot import CableRobot
 from actuator_select.model.supports import Support, support_wrenches
-from actuator_select.model.tension import TensionModel, leaves_unbalanced, pseudo_inverse
+from actuator_select.model.tension import TensionModel, balanced_rows, leaves_unbalanced, pseudo_inverse
 
 NEGATIVE_TENSION_TOLERANCE = 1e-9  # relative to the largest static tension of the pose
 BOUND_TOLERANCE = 1e-9  # relative; a tension or a length that exceeds its bound by less is rounding
@@ -177,7 +177,7 @@ def compute_demand(
     ----------
     Eqs. 1-29 in Filipović & Kevac 2018, doi:10.22190/FUACR1802071F, their worst cases in closed form.
     """
-    rows = robot.translation_rows if tension_model is TensionModel.FORCE_ONLY else robot.wrench_rows
+    rows = balanced_rows(robot, tension_model)
     poses = len(positions) * len(orientations)
     work = _Work(robot=robot, rows=rows, motion=motion, model=tension_model, wrenches=wrenches, poses=poses)
     each_position = np.repeat(positions, len(orientations), axis=0)

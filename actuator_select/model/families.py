@@ -249,7 +249,7 @@ def constrained_eight(hall: FloatArray, platform: FloatArray) -> CableRobot:
 
 
 def hall_region(hall: FloatArray, platform: FloatArray) -> FloatArray:
-    """Box in which the platform's origin has room: the hall less the platform's diagonal on every side.
+    """Box in which the platform's origin has room: the hall less half the platform's diagonal on every side.
 
     Parameters
     ----------

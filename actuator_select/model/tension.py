@@ -6,8 +6,8 @@ from enum import StrEnum
 import numpy as np
 
 from actuator_select.model.arrays import BoolArray, FloatArray, IntArray
-from actuator_select.model.dynamics import RequiredWrench
 from actuator_select.model.hyperplanes import WrenchSets
+from actuator_select.model.robot import CableRobot
 
 RANK_TOLERANCE = 1e-9  # relative to the largest singular value
 BALANCE_TOLERANCE = 1e-9  # relative to the norm of the largest required wrench, N and N m taken alike
@@ -24,6 +24,11 @@ class TensionModel(StrEnum):
     def lets_cables_push(self) -> bool:
         """Whether tensions may be negative."""
         return self is TensionModel.PSEUDO_INVERSE
+
+
+def balanced_rows(robot: CableRobot, model: TensionModel) -> tuple[int, ...]:
+    """Rows of the structure matrix that have to be balanced: those of the forces alone under `FORCE_ONLY`."""
+    return robot.translation_rows if model is TensionModel.FORCE_ONLY else robot.wrench_rows
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -48,6 +53,9 @@ class PseudoInverse:
 def pseudo_inverse(structure_matrix: FloatArray) -> PseudoInverse:
     """Moore-Penrose inverse of (Q, n, m) structure matrices, N and N m taken alike.
 
+    Its tensions t = W⁺ w have the least Euclidean norm; where w is out of the range of W, they leave the least
+    residual. A negative one, a cable that pushes, is a result, not an error.
+
     References
     ----------
     Eq. 20 in Filipović & Kevac 2018, doi:10.22190/FUACR1802071F.
@@ -59,65 +67,6 @@ def pseudo_inverse(structure_matrix: FloatArray) -> PseudoInverse:
     identity = np.eye(structure_matrix.shape[1])
     return PseudoInverse(
         matrix=matrix, residual_maker=identity - structure_matrix @ matrix, rank=kept.sum(axis=-1, dtype=np.int64)
-    )
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class CableTensions:
-    """Tensions t(a) = static + per_acceleration · a at Q poses, positive in pull, and what they leave unbalanced.
-
-    Attributes
-    ----------
-    static : (Q, m) array
-        At rest. [N]
-    per_acceleration : (Q, m, 3) array
-        Per unit of the platform's acceleration. [kg]
-    rank : (Q,) array
-        Rank of the structure matrix.
-    residual_static : (Q, 6) array
-        Required wrench less the wrench of the tensions, at rest. [N, N m]
-    residual_per_acceleration : (Q, 6, 3) array
-        The same per unit of acceleration. [kg, kg m]
-    """
-
-    static: FloatArray
-    per_acceleration: FloatArray
-    rank: IntArray
-    residual_static: FloatArray
-    residual_per_acceleration: FloatArray
-
-
-def pseudo_inverse_tensions(structure_matrix: FloatArray, wrench: RequiredWrench) -> CableTensions:
-    """Tensions of least Euclidean norm, t = W⁺ w; where w is out of the range of W, of the least residual.
-
-    The model lets a cable push: a negative tension is a result, not an error.
-
-    Parameters
-    ----------
-    structure_matrix : (Q, 6, m) array
-        W.
-    wrench : RequiredWrench
-        w, affine in the acceleration.
-
-    Returns
-    -------
-    CableTensions
-        At the Q poses.
-
-    References
-    ----------
-    Eq. 20 in Filipović & Kevac 2018, doi:10.22190/FUACR1802071F.
-    """
-    inverse = pseudo_inverse(structure_matrix)
-    columns = np.column_stack([wrench.static, wrench.per_acceleration])  # (6, 4)
-    tensions = inverse.matrix @ columns  # (Q, m, 4)
-    residual = columns - structure_matrix @ tensions
-    return CableTensions(
-        static=np.ascontiguousarray(tensions[..., 0]),
-        per_acceleration=np.ascontiguousarray(tensions[..., 1:]),
-        rank=inverse.rank,
-        residual_static=residual[..., 0],
-        residual_per_acceleration=residual[..., 1:],
     )
 
 

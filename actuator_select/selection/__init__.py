@@ -2,8 +2,10 @@
 
 from actuator_select.model.exceedance import Exceedance
 from actuator_select.selection.cautions import Warned
+from actuator_select.selection.elastic import ElasticLengths, elastic_lengths
 from actuator_select.selection.plausibility import Finding, check_catalogue, check_rows
 from actuator_select.selection.records import selection_record
+from actuator_select.selection.robot_sheet import RobotSheet, robot_sheet
 from actuator_select.selection.selection import (
     CheckVerdict,
     RankedActuator,
@@ -13,14 +15,18 @@ from actuator_select.selection.selection import (
     rank,
 )
 from actuator_select.selection.simulation import Simulation, simulate
+from actuator_select.selection.support_intervals import RopeTensions, rope_tensions
 from actuator_select.selection.sweeps import Sweep, sweep_workspace
 from actuator_select.selection.workspaces import WorkspaceResult, evaluate_workspace, workspace_record
 
 __all__ = [
     "CheckVerdict",
+    "ElasticLengths",
     "Exceedance",
     "Finding",
     "RankedActuator",
+    "RobotSheet",
+    "RopeTensions",
     "Selection",
     "Simulation",
     "StudyEvaluation",
@@ -29,9 +35,12 @@ __all__ = [
     "WorkspaceResult",
     "check_catalogue",
     "check_rows",
+    "elastic_lengths",
     "evaluate",
     "evaluate_workspace",
     "rank",
+    "robot_sheet",
+    "rope_tensions",
     "selection_record",
     "simulate",
     "sweep_workspace",

@@ -126,6 +126,18 @@ def position_verdicts(evaluation: Evaluation, index: int, checks: Iterable[Check
     return np.asarray(np.logical_and.reduce([evaluation.demand.attainable_positions, *holds]), dtype=np.bool_)
 
 
+def connected_share(study: Study, feasible: BoolArray) -> float | None:
+    """Share of feasible positions of the grid, (P,), that is connected to the home position; None without one. [%]"""
+    table = study.table.workspace
+    if table.home_m is None:
+        return None
+    total = int(feasible.sum())
+    if not total:
+        return 0.0
+    home = int(((study.positions - np.array(table.home_m)) ** 2).sum(axis=1).argmin())
+    return 100.0 * connected_positions(feasible, table.points, home) / total
+
+
 def connected_percents(
     study: Study, evaluation: Evaluation, counted: IntArray, indices: Iterable[int]
 ) -> dict[int, float]:
@@ -147,17 +159,14 @@ def connected_percents(
     dict of int to float
         Empty without a home position.
     """
-    table = study.table.workspace
-    if table.home_m is None:
+    if study.table.workspace.home_m is None:
         return {}
-    home = int(((study.positions - np.array(table.home_m)) ** 2).sum(axis=1).argmin())
     shares = {}
     for index in indices:
         feasible = np.zeros(len(study.positions), dtype=np.bool_)
         feasible[counted] = position_verdicts(evaluation, int(index), study.checks)
-        total = int(feasible.sum())
-        connected = connected_positions(feasible, table.points, home) if total else 0
-        shares[int(index)] = 100.0 * connected / total if total else 0.0
+        if (share := connected_share(study, feasible)) is not None:
+            shares[int(index)] = share
     return shares
 
 

@@ -94,7 +94,7 @@ def robot_record(sheet: RobotSheet) -> dict[str, object]:
         "attainable_poses": sheet.attainable,
         "attainable_percent": round(100.0 * sheet.attainable / sheet.positions, 2),
         "held_at_rest_poses": sheet.held_at_rest,
-        "rank_short_poses": sheet.rank_short,
+        "singular_poses": sheet.singular,
         "least_rank": sheet.least_rank,
         "per_cable": [
             {
@@ -151,8 +151,8 @@ def robot_items(sheet: RobotSheet) -> dict[str, str]:
             f"{axis} {low:g} to {high:g} m" for axis, (low, high) in zip("xyz", study.region, strict=True)
         ),
         "rank": f"full ({sheet.least_rank}) at every position"
-        if not sheet.rank_short
-        else f"short at {count_of(sheet.rank_short, sheet.positions)} positions, down to {sheet.least_rank}",
+        if not sheet.singular
+        else f"short at {count_of(sheet.singular, sheet.positions)} positions, down to {sheet.least_rank}",
         "at rest": f"held at {count_of(sheet.held_at_rest, sheet.positions)} positions",
         "attainable": f"{count_of(sheet.attainable, sheet.positions)} positions, by any drive, over the motion set",
     }

@@ -107,7 +107,7 @@ class RobotSheet:
         Positions that a drive without limits could hold over the whole motion set.
     held_at_rest : int
         Positions where the platform can stand still, at every orientation, with every load.
-    rank_short : int
+    singular : int
         Positions where the structure matrix is short of rank at one orientation or more.
     least_rank : int
         Over all poses.
@@ -121,7 +121,7 @@ class RobotSheet:
     positions: int
     attainable: int
     held_at_rest: int
-    rank_short: int
+    singular: int
     least_rank: int
     warnings: tuple[Warned, ...]
 
@@ -196,7 +196,7 @@ def robot_sheet(study: Study, progress: Progress | None = None) -> RobotSheet:
         positions=len(study.positions),
         attainable=int(demand.attainable_positions.sum()),
         held_at_rest=int(held.sum()),
-        rank_short=demand.positions_with(demand.rank_deficient),
+        singular=demand.positions_with(demand.rank_deficient),
         least_rank=int(demand.rank.min()),
         warnings=_warnings(study, demand, held),
     )

@@ -122,6 +122,8 @@ def simulate(
 ) -> Simulation:
     """Drive one actuator type along a straight line with a trapezoidal speed profile.
 
+    The move carries the first load of the study, external forces and moments in the middle of their range.
+
     Parameters
     ----------
     study : Study

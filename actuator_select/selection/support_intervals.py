@@ -8,7 +8,7 @@ from actuator_select.errors import InvalidInput, Problem
 from actuator_select.model.arrays import FloatArray
 from actuator_select.model.demand import Progress
 from actuator_select.model.support_interval import SupportInterval, support_interval
-from actuator_select.model.tension import TensionModel
+from actuator_select.model.tension import TensionModel, balanced_rows
 from actuator_select.model.workspace import OrientationRule, WorkspaceKind, judge_positions, what_is_asked
 from actuator_select.selection.workspaces import rounded
 from actuator_select.study import Study
@@ -130,7 +130,7 @@ def rope_tensions(
         wrenches,
         motion,
         rope=rope,
-        rows=robot.translation_rows if model is TensionModel.FORCE_ONLY else robot.wrench_rows,
+        rows=balanced_rows(robot, model),
         progress=progress,
     )
     return RopeTensions(

@@ -262,8 +262,13 @@ def move_words(run: Simulation) -> str:
     return (
         f"{run.candidates.names[0]} on {run.study.robot.cables} cables: ({start}) to ({stop}) m at (ψ, θ, φ) = "
         f"({angles}) rad, {profile.distance:.3f} m in {run.duration:.4g} s, up to {profile.speed:.4g} m/s; "
-        f"tensions: {run.study.tension_model.value}"
+        f"tensions: {run.study.tension_model.value}{_load_of_move(run.study)}"
     )
+
+
+def _load_of_move(study: Study) -> str:
+    """Which of several loads a move carries."""
+    return f"; load: {study.loads[0].title}, the first of {len(study.loads)}" if len(study.loads) > 1 else ""
 
 
 def exceedance_words(exceedance: Exceedance) -> str:

@@ -8,7 +8,7 @@ from actuator_select.model.arrays import FloatArray
 from actuator_select.model.components import ActuatorSet
 from actuator_select.model.demand import Progress
 from actuator_select.model.support_interval import SupportInterval, support_interval
-from actuator_select.model.tension import TensionModel
+from actuator_select.model.tension import balanced_rows
 from actuator_select.model.workspace import OrientationRule, WorkspaceKind
 from actuator_select.selection.models import ModelCount, compare_models
 from actuator_select.selection.places import counted_positions, study_demand
@@ -124,5 +124,5 @@ def minimax_tension(study: Study) -> FloatArray | None:
 def _interval(study: Study) -> SupportInterval | None:
     if len(study.robot.counterbalances) != 1 or study.tension_model.lets_cables_push:
         return None
-    rows = study.robot.translation_rows if study.tension_model is TensionModel.FORCE_ONLY else None
+    rows = balanced_rows(study.robot, study.tension_model)
     return support_interval(study.robot, study.positions, study.orientations, study.wrenches, study.motion, rows=rows)

@@ -7,9 +7,10 @@ import numpy as np
 from actuator_select.errors import InvalidInput, Problem
 from actuator_select.model.arrays import BoolArray, FloatArray
 from actuator_select.model.demand import BOUND_TOLERANCE, Progress
-from actuator_select.model.grid_measure import Measure, connected_positions, measure_of
-from actuator_select.model.tension import TensionModel
+from actuator_select.model.grid_measure import Measure, measure_of
+from actuator_select.model.tension import TensionModel, balanced_rows
 from actuator_select.model.workspace import OrientationRule, PositionVerdicts, WorkspaceKind, judge_positions
+from actuator_select.selection.places import connected_share
 from actuator_select.selection.wording import basis, motion_words
 from actuator_select.study import Study
 
@@ -187,8 +188,8 @@ def evaluate_workspace(
         feasible_poses=feasible_poses,
         singular_poses=int(verdicts.short_of_rank.sum()),
         too_near_poses=int(verdicts.apart.sum()),
-        measured=measure_of(verdicts.feasible, table.points, study.cell_size, midpoints=table.grid == "midpoints"),
-        connected_percent=_connected(study, verdicts.feasible),
+        measured=measured,
+        connected_percent=connected_share(study, verdicts.feasible),
         reasons=_reasons(study, kind, over, model, verdicts) if explain and not feasible_poses else (),
         warnings=(*_warnings(study, kind, over, model, verdicts), *_measure_warnings(measured)),
     )
@@ -222,7 +223,7 @@ def workspace_words(result: WorkspaceResult) -> str:
     if result.measure is None or result.unit is None or result.interval is None:
         return "–"
     least, most = result.interval
-    return f"{result.measure:.4g} {result.unit.replace('2', '²').replace('3', '³')} ({least:.4g} to {most:.4g})"
+    return f"{result.measure:.4g} {unit_words(result.unit)} ({least:.4g} to {most:.4g})"
 
 
 def workspace_basis(result: WorkspaceResult) -> dict[str, str]:
@@ -262,6 +263,11 @@ def workspace_basis(result: WorkspaceResult) -> dict[str, str]:
     return items
 
 
+def unit_words(unit: str) -> str:
+    """``m²`` of ``m2``."""
+    return unit.replace("2", "²").replace("3", "³")
+
+
 def rounded(value: float | None) -> float | None:
     """A number without the digits that summing left in it."""
     return None if value is None else float(f"{value:.10g}")
@@ -289,17 +295,6 @@ def _judge(
     )
 
 
-def _connected(study: Study, feasible: BoolArray) -> float | None:
-    table = study.table.workspace
-    if table.home_m is None:
-        return None
-    total = int(feasible.sum())
-    if not total:
-        return 0.0
-    home = int(((study.positions - np.array(table.home_m)) ** 2).sum(axis=1).argmin())
-    return 100.0 * connected_positions(feasible, table.points, home) / total
-
-
 def _reasons(
     study: Study, kind: WorkspaceKind, over: OrientationRule, model: TensionModel, verdicts: PositionVerdicts
 ) -> tuple[str, ...]:
@@ -314,7 +309,7 @@ def _reasons(
     if kind is WorkspaceKind.REACHABLE:
         return ("At every position a cable is out of its bounds of length.",)
     reasons = []
-    equations = len(robot.translation_rows if model is TensionModel.FORCE_ONLY else robot.wrench_rows)
+    equations = len(balanced_rows(robot, model))
     if robot.cables < equations:
         reasons.append(
             f"{robot.cables} cables cannot balance {equations} equations, but for loads that happen to lie in the "

@@ -9,6 +9,7 @@ from actuator_select.study.loading import (
     study_text,
 )
 from actuator_select.study.overrides import parse_overrides
+from actuator_select.study.sweeping import SweepAxis
 from actuator_select.study.template_families import TEMPLATES, TemplateOptions
 from actuator_select.study.templates import DEFAULT_TEMPLATE, template_text
 
@@ -16,6 +17,7 @@ __all__ = [
     "DEFAULT_TEMPLATE",
     "TEMPLATES",
     "Study",
+    "SweepAxis",
     "TemplateOptions",
     "Variant",
     "builtin_studies",

@@ -22,7 +22,7 @@ from actuator_select.model.families import (
 )
 from actuator_select.model.robot import CableBounds, CableRobot, Counterbalance, Freedom, Plane, RigidBody
 from actuator_select.model.tension import TensionModel
-from actuator_select.study.schema import REGIONS, CablesTable, CounterbalanceTable, RobotTable, StudyTable
+from actuator_select.study.schema import LARGE, REGIONS, CablesTable, CounterbalanceTable, RobotTable, StudyTable
 
 ANCHOR_COLUMNS = (
     "cable",
@@ -116,6 +116,8 @@ _BUILDERS: dict[str, Callable[[RobotTable], CableRobot]] = {
 def read_anchors(path: Path, place: str) -> FloatArray:
     """Anchors of a CSV file with the columns `ANCHOR_COLUMNS`, (m, 6). [m]
 
+    Cables are numbered by their rows; the column ``cable`` is a name for people.
+
     Raises
     ------
     InvalidStudy
@@ -144,10 +146,12 @@ def read_anchors(path: Path, place: str) -> FloatArray:
                 anchors[line, column] = float(row[name])
             except (TypeError, ValueError):
                 anchors[line, column] = np.nan
-            if not np.isfinite(anchors[line, column]):
+            if not abs(anchors[line, column]) <= LARGE:
                 problems.append(
                     Problem(
-                        place=f"{path.name}, line {line + 2}, {name}", value=repr(row[name]), expected="a number [m]"
+                        place=f"{path.name}, line {line + 2}, {name}",
+                        value=repr(row[name]),
+                        expected=f"a number from -{LARGE:g} to {LARGE:g} [m]",
                     )
                 )
     if problems:

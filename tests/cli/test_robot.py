@@ -49,7 +49,7 @@ def test_json_stands_alone_and_has_units_in_its_keys(run: Run) -> None:
     status, out, _ = run("robot", "show", "cpr8", "--format", "json", "--set", "workspace.points=[3,3,3]")
     record = json.loads(out, parse_constant=pytest.fail)
     assert status == 0
-    assert record["poses"] == record["rank_short_poses"] == 27
+    assert record["poses"] == record["singular_poses"] == 27
     assert len(record["per_cable"]) == 8
     assert set(record["per_cable"][0]) == {
         "cable",
@@ -93,4 +93,4 @@ def test_a_new_study_from_anchors(run: Run, tmp_path: Path) -> None:
     (tmp_path / "a.csv").write_text(header + "1,0,zero,3,0,0,0\n", encoding="utf-8")
     status, _, err = run("study", "new", "mine.toml", "--force", "--template", "anchors", "--anchors", "a.csv")
     assert status == 2
-    assert "a.csv, line 2, frame_y_m: 'zero', expected a number [m]" in err
+    assert "a.csv, line 2, frame_y_m: 'zero', expected a number from -1e+06 to 1e+06 [m]" in err

@@ -56,7 +56,7 @@ def test_forces_lengths_and_speeds_are_those_of_statics_by_hand() -> None:
     assert right.largest.force == pytest.approx(left.largest.force)
     assert right.speed == pytest.approx(4.5 / np.hypot(4.5, 4.0))
     assert left.tension_bound is None
-    assert (sheet.attainable, sheet.held_at_rest, sheet.rank_short) == (3, 3, 0)
+    assert (sheet.attainable, sheet.held_at_rest, sheet.singular) == (3, 3, 0)
 
 
 def test_cables_of_one_frame_point_are_added_as_vectors() -> None:
@@ -81,7 +81,7 @@ def test_the_frame_and_the_weight_balance() -> None:
 def test_the_case_study_is_warned_of() -> None:
     sheet = robot_sheet(load_study("cpr8"))
     assert {"similar_anchors", "rank_deficient", "negative_tension_at_rest", "short_cable"} <= codes(sheet)
-    assert sheet.rank_short == sheet.positions == 216
+    assert sheet.singular == sheet.positions == 216
     assert sheet.least_rank == 5
     assert "short at 216/216" in robot_items(sheet)["rank"]
 
@@ -89,7 +89,7 @@ def test_the_case_study_is_warned_of() -> None:
 def test_a_robot_with_similar_anchors_seen_from_the_side_is_warned_of() -> None:
     options = TemplateOptions(hall=(20.0, 5.0, 5.0), platform=(0.5, 0.5, 0.5))
     sheet = sheet_of(template_text("a", "constrained-8", options))
-    assert sheet.rank_short == sheet.positions
+    assert sheet.singular == sheet.positions
     assert [one.text[:12] for one in sheet.warnings if one.code == "similar_anchors"] == ["Seen along x"]
 
 
