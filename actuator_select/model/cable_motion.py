@@ -72,7 +72,7 @@ def cable_motion(robot: CableRobot, geometry: CableGeometry, motion: MotionSet) 
     if motion.kind is MotionKind.LISTED:
         return _listed(geometry, along, about, inverse_length, motion)
     if motion.kind is MotionKind.SAMPLED:
-        speeds = _sampled(along, inverse_length, motion)
+        speeds = _sampled(robot, along, inverse_length, motion)
     else:
         speeds = _largest(robot, geometry, along, about, inverse_length, motion)
     speed_in, speed_out, least_swing, most_swing = speeds
@@ -152,14 +152,14 @@ def cable_speeds(directions: FloatArray, motion: MotionSet) -> FloatArray:
 
 
 def _sampled(
-    along: FloatArray, inverse_length: FloatArray, motion: MotionSet
+    robot: CableRobot, along: FloatArray, inverse_length: FloatArray, motion: MotionSet
 ) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
     rates = cable_speeds(along, motion)
     speed_in, speed_out = rates.max(axis=-1), -rates.min(axis=-1)
     if not motion.centripetal:
         nothing = np.zeros_like(speed_in)
         return speed_in, speed_out, nothing, nothing
-    across = (motion.velocities**2).sum(axis=1) - rates**2
+    across = ((motion.velocities * _mask(robot.free_axes)) ** 2).sum(axis=1) - rates**2
     return speed_in, speed_out, inverse_length * across.min(axis=-1), inverse_length * across.max(axis=-1)
 
 

@@ -64,6 +64,8 @@ class Demand:
         What every pose has to do.
     tension_model : TensionModel
         How the cables share the load.
+    free_axes : tuple of int
+        Axes along which the platform translates.
     lengths : (Q, m) array
         [m]
     directions : (Q, m, 3) array
@@ -101,6 +103,7 @@ class Demand:
     orientations: FloatArray
     motion: MotionSet
     tension_model: TensionModel
+    free_axes: tuple[int, ...]
     lengths: FloatArray
     directions: FloatArray
     tensions: LinearTensions | None
@@ -124,6 +127,11 @@ class Demand:
     unbalanced: BoolArray
     unreachable: BoolArray
     tension_min: FloatArray
+
+    @property
+    def free_directions(self) -> FloatArray:
+        """Directions less what points along axes on which the platform does not move, (Q, m, 3)."""
+        return self.directions * np.isin(np.arange(3), self.free_axes)
 
     def by_position(self, values: FloatArray) -> FloatArray:
         """Rearrange (Q, m, ...) to (P, E·m, ...): all that one position asks, over its cases."""
@@ -204,6 +212,7 @@ def compute_demand(
         orientations=orientations,
         motion=motion,
         tension_model=tension_model,
+        free_axes=robot.free_axes,
         tensions=tensions,
         speed=np.maximum(arrays["speed_in"], arrays["speed_out"]),
         acceleration=np.maximum(arrays["acceleration_in"], arrays["acceleration_out"]),

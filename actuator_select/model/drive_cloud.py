@@ -77,7 +77,7 @@ def drive_cloud(demand: Demand, actuator: ActuatorSet, points: int, positions: I
     pose, cable, choice, corner = np.vstack([every, drawn]).T
     share = np.concatenate([np.linspace(-1.0, 1.0, SPEEDS)[every[:, 2] % SPEEDS], generator.uniform(-1.0, 1.0, points)])
     speed, centripetal = _motions(demand, pose, cable, choice, share)
-    acceleration = (demand.directions[pose, cable] * corners[corner]).sum(axis=1) - centripetal
+    acceleration = (demand.free_directions[pose, cable] * corners[corner]).sum(axis=1) - centripetal
     if demand.tensions is None:
         tension = np.where(demand.attainable[pose], demand.force[pose, cable], np.nan)
     else:
@@ -103,8 +103,8 @@ def _motions(
     motion = demand.motion
     scale = swing_scale(demand.lengths, motion)[pose, cable]
     if motion.kind is MotionKind.SAMPLED:
-        velocity = motion.velocities[choice]
-        speed = (demand.directions[pose, cable] * velocity).sum(axis=1)
+        velocity = motion.velocities[choice] * np.isin(np.arange(3), demand.free_axes)
+        speed = (demand.free_directions[pose, cable] * velocity).sum(axis=1)
         return speed, ((velocity**2).sum(axis=1) - speed**2) * scale
     speed = motion.speed * share
     across = np.where(choice < SPEEDS, motion.speed**2 - speed**2, 0.0)

@@ -15,6 +15,7 @@ from actuator_select.model.cable_motion import swing_scale
 from actuator_select.model.demand import Demand
 from actuator_select.model.motion import MotionKind, SetShape, extent
 
+SWING_TOLERANCE = 1e-12  # of V² - (u·v)², relative to V²; less is rounding of a direction's length
 CELLS_AT_ONCE = 1 << 17  # (actuator, position, cable, sample) cells in one chunk: its scratch stays in the cache
 
 
@@ -40,8 +41,11 @@ class VoltageDemand:
         Radius of the ball of velocities. [m/s]
     inverse_length : (P, k) array
         1/l, or 0 where the swing term is left out or counted in `acceleration_extra`. [1/m]
+    least_swing : (P, k) array
+        Swing term at the cable's greatest speed: above 0 where a cable leads out of the plane of a planar robot, so
+        that no velocity has its direction. [m/s²]
     directions : (P, k, 3) array or None
-        Cable directions, where velocities are sampled and the centripetal term counts, or have the direction of the
+        Cable directions along the axes on which the platform moves, where velocities are sampled and the centripetal term counts, or have the direction of the
         acceleration; None where extremes suffice.
     velocities : (S, 3) array
         The samples. [m/s]
@@ -59,6 +63,7 @@ class VoltageDemand:
     speed_out: FloatArray
     speed: float
     inverse_length: FloatArray
+    least_swing: FloatArray
     directions: FloatArray | None
     velocities: FloatArray
 
@@ -114,11 +119,12 @@ class VoltageDemand:
             across = (self.velocities**2).sum(axis=1) - speeds**2
             terms = damping[..., None] * speeds - mass[..., None] * (across * self.inverse_length[chunk, :, None])
             return terms.max(axis=-1), -terms.min(axis=-1)
-        up = damping * self.speed_in[chunk]
-        down = damping * self.speed_out[chunk]
-        # Winding out at u·v = -s: damping s + mass (V² - s²)/l is largest at s = damping l/(2 mass) if that is below V.
+        up = damping * self.speed_in[chunk] - mass * self.least_swing[chunk]
+        down = damping * self.speed_out[chunk] + mass * self.least_swing[chunk]
+        # Winding out at u·v = -s: damping s + mass (V² - s²)/l is largest at s = damping l/(2 mass) if the cable's
+        # greatest speed is beyond that.
         inverse_length = self.inverse_length[chunk]
-        inside = damping < 2.0 * mass * self.speed * inverse_length
+        inside = damping < 2.0 * mass * self.speed_out[chunk] * inverse_length
         if inside.any():
             with np.errstate(divide="ignore", invalid="ignore"):
                 peak = mass * self.speed**2 * inverse_length + damping**2 / (4.0 * mass * inverse_length)
@@ -138,6 +144,7 @@ class VoltageDemand:
             speed_in=self.speed_in[positions],
             speed_out=self.speed_out[positions],
             inverse_length=self.inverse_length[positions],
+            least_swing=self.least_swing[positions],
             directions=None if self.directions is None else self.directions[positions],
         )
 
@@ -171,13 +178,17 @@ def voltage_demand(demand: Demand) -> VoltageDemand:
     motion = demand.motion
     sampled = motion.kind is MotionKind.SAMPLED and motion.centripetal
     straight = motion.kind is MotionKind.STRAIGHT and demand.tensions is not None
-    directions = np.concatenate([demand.by_position(demand.directions)] * len(parts), axis=1)
+    directions = np.concatenate([demand.by_position(demand.free_directions)] * len(parts), axis=1)
+    fastest = motion.speed_bound**2
+    across = fastest - gathered["speed_out"] ** 2
+    across = np.where(across > SWING_TOLERANCE * fastest, across, 0.0)
     return VoltageDemand(
         shape=motion.acceleration_shape if demand.tensions is not None else SetShape.BOX,
         straight=straight,
         speed=motion.speed_bound,
         directions=directions if sampled or straight else None,
-        velocities=motion.velocities if sampled else motion.velocities[:0],
+        velocities=motion.velocities * np.isin(np.arange(3), demand.free_axes) if sampled else motion.velocities[:0],
+        least_swing=gathered["inverse_length"] * across,
         **gathered,
     )
 
@@ -194,7 +205,7 @@ def _linear(demand: Demand) -> dict[str, FloatArray]:
         "force": tensions.middle,
         "acceleration": middle,
         "force_reach": tensions.per_acceleration * reach,
-        "acceleration_reach": demand.directions * reach,
+        "acceleration_reach": demand.free_directions * reach,
         "force_extra": tensions.other_reach,
         "acceleration_extra": np.maximum(0.0, extra - alone),
         "speed_in": demand.speed_in,
@@ -226,7 +237,7 @@ def _reach_of_acceleration(demand: Demand) -> FloatArray:
     motion = demand.motion
     if motion.kind is MotionKind.LISTED:
         return np.zeros_like(demand.lengths)
-    return extent(demand.directions, motion.acceleration_reach, motion.acceleration_shape)
+    return extent(demand.free_directions, motion.acceleration_reach, motion.acceleration_shape)
 
 
 def _swing(demand: Demand) -> tuple[FloatArray, FloatArray, FloatArray]:

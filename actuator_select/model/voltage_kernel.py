@@ -88,7 +88,7 @@ def _knots(masses: FloatArray) -> FloatArray:
 
 
 def _pack(rows: VoltageDemand) -> FloatArray:
-    """One contiguous block per position, (P, 14, k)."""
+    """One contiguous block per position, (P, 15, k)."""
     length = np.divide(
         1.0, rows.inverse_length, out=np.zeros_like(rows.inverse_length), where=rows.inverse_length > 0.0
     )
@@ -104,6 +104,7 @@ def _pack(rows: VoltageDemand) -> FloatArray:
             length,
             rows.force_extra,
             rows.acceleration_extra,
+            rows.least_swing,
         ],
         axis=1,
     )
@@ -113,7 +114,6 @@ def _pack(rows: VoltageDemand) -> FloatArray:
 def _worst(row, speed, mass, damping):  # type: ignore[no-untyped-def]  # noqa: ANN001, ANN202
     """Largest demand of one position on one actuator: `VoltageDemand.worst`, cable by cable."""
     worst = -np.inf
-    threshold = 2.0 * mass * speed
     scale = mass * speed * speed
     quarter = damping * damping / (4.0 * mass) if mass > 0.0 else 0.0
     for cable in range(row.shape[1]):
@@ -125,10 +125,10 @@ def _worst(row, speed, mass, damping):  # type: ignore[no-untyped-def]  # noqa: 
             + mass * row[13, cable]
         )
         middle = row[0, cable] + mass * row[1, cable]
-        up = damping * row[8, cable] + middle
-        edge = damping * row[9, cable]
+        up = damping * row[8, cable] - mass * row[14, cable] + middle
+        edge = damping * row[9, cable] + mass * row[14, cable]
         peak = scale * row[10, cable] + quarter * row[11, cable]
-        down = (peak if damping < threshold * row[10, cable] else edge) - middle
+        down = (peak if damping < 2.0 * mass * row[9, cable] * row[10, cable] else edge) - middle
         worst = max(worst, reach + max(up, down))
     return worst
 
@@ -150,7 +150,7 @@ def _tabulate(table, knots, speed, upper, lower):  # type: ignore[no-untyped-def
                     + mass * row[13, cable]
                 )
                 middle = row[0, cable] + mass * row[1, cable]
-                winding_in = max(winding_in, middle + reach)
+                winding_in = max(winding_in, middle + reach - mass * row[14, cable])
                 both = max(both, reach - middle + mass * speed * speed * row[10, cable])
             upper[knot, position] = max(both, winding_in)
             lower[knot, position] = winding_in

@@ -9,7 +9,14 @@ import pytest
 from actuator_select.model.actuation import VoltageLine
 from actuator_select.model.demand import Demand, compute_demand
 from actuator_select.model.dynamics import Load, platform_wrench
-from actuator_select.model.motion import MotionKind, MotionSet, SetShape, independent_motion, listed_motion
+from actuator_select.model.motion import (
+    MotionKind,
+    MotionSet,
+    SetShape,
+    independent_motion,
+    listed_motion,
+    sampled_motion,
+)
 from actuator_select.model.robot import CableBounds, CableRobot, Counterbalance, Freedom, RigidBody
 from actuator_select.model.voltage import voltage_demand
 from tests.reference.moving_platform import (
@@ -193,6 +200,28 @@ def test_the_worst_force_and_voltage_are_those_of_the_worst_motion(
             assert found == pytest.approx(closed[index], rel=1e-4)
         else:
             assert found > 0.7 * closed[index]
+
+
+@pytest.mark.parametrize("freedom", FLAT)
+@pytest.mark.parametrize("kind", ["independent", "straight", "sampled"])
+def test_cables_that_lead_out_of_the_plane_ask_what_motions_in_the_plane_ask(freedom: Freedom, kind: str) -> None:
+    flat = situation(freedom, seed=2)
+    aside = np.array([[0.0, y, 0.0] for y in (3.0, -2.0, 4.0, -1.0, 2.5)])
+    case = replace(flat, robot=replace(flat.robot, frame_anchors=flat.robot.frame_anchors + aside))
+    motion, limits = sets(freedom, straight=kind == "straight", acceleration_box=kind == "sampled")
+    if kind == "sampled":
+        motion = sampled_motion(
+            SPEED, RAMP, RAMP, velocity_intervals=20, acceleration_levels=(-1.0, 1.0), centripetal=True
+        )
+    closed = voltage_demand(case.demand(motion)).worst(LINE)[:, 0]
+    for index, (mass, damping) in enumerate(zip(LINE.reflected_mass, LINE.damping, strict=True)):
+        found = max(largest(case, limits, load, mass, damping).max() for load in (0, 1))
+        if kind == "independent":
+            assert found == pytest.approx(closed[index], rel=1e-4)
+        elif kind == "straight":
+            assert 0.7 * closed[index] < found <= closed[index] * (1.0 + 1e-6)
+        else:  # samples lie within the ball, and not far from its border
+            assert 0.95 * found < closed[index] <= found * (1.0 + 1e-4)
 
 
 @pytest.mark.parametrize("freedom", [Freedom.PLANAR, Freedom.SPATIAL])
