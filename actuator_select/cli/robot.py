@@ -1,6 +1,7 @@
 """``actuator-select robot``."""
 
 import shlex
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
@@ -8,8 +9,6 @@ import click
 from actuator_select.cli import console, options
 
 if TYPE_CHECKING:
-    from pathlib import Path
-
     from actuator_select.selection.robot_sheet import RobotSheet
 
 
@@ -22,13 +21,15 @@ def command() -> None:
 @click.argument("study", metavar="STUDY")
 @options.set_option
 @options.plot_option("Draw the robot")
+@click.option("--open", "opens", is_flag=True, help="Open the picture in the viewer of this computer.")
 @options.format_option("table", "json", "csv")
-def show(study: str, overrides: tuple[str, ...], plot: "Path | None", output_format: str) -> None:
+def show(study: str, overrides: tuple[str, ...], plot: Path | None, opens: bool, output_format: str) -> None:
     """Show a robot: rope lengths, forces on the frame, cable speeds, and what to mind.
 
     \b
     Examples:
         actuator-select robot show cpr8 --plot cpr8.svg
+        actuator-select robot show hall.toml --open
         actuator-select robot show hall.toml --set workspace.points=[15,11,7] --format csv
 
     Lengths and speeds are over all positions and orientations of the study; forces are those of standing still, over
@@ -38,6 +39,8 @@ def show(study: str, overrides: tuple[str, ...], plot: "Path | None", output_for
     from actuator_select.selection.robot_sheet import robot_sheet
     from actuator_select.study import load_study, parse_overrides
 
+    if opens and plot is None:
+        plot = Path(f"{Path(study).stem}.svg")
     draw = options.plot_writer(plot)
     loaded = load_study(study, parse_overrides(overrides))
     with console.progress("Looking at the robot") as progress:
@@ -46,6 +49,8 @@ def show(study: str, overrides: tuple[str, ...], plot: "Path | None", output_for
         from actuator_select.report.robot_figure import robot_figure
 
         draw(robot_figure(sheet.study))
+        if opens and click.launch(str(plot)) != 0:
+            console.warn(f"no viewer could be started; open {plot} yourself")
     if output_format == "json":
         console.emit_json(robot_record(sheet))
     elif output_format == "csv":
@@ -67,6 +72,7 @@ def print_robot(sheet: "RobotSheet") -> None:
     header += ["its direction", "with the platform at [m]"]
     several = len(sheet.study.loads) > 1
     bounded = any(cable.tension_bound is not None for cable in sheet.cables)
+    elastic = any(cable.unstretched is not None for cable in sheet.cables)
     rows = [
         [
             str(cable.number),
@@ -78,11 +84,14 @@ def print_robot(sheet: "RobotSheet") -> None:
             _vector(cable.largest.direction, 2),
             _vector(cable.largest.position) + (f", {cable.largest.load}" if several and cable.largest.load else ""),
             *([_force(cable.tension_bound)] if bounded else []),
+            *(["–" if cable.unstretched is None else "{:.3f} … {:.3f}".format(*cable.unstretched)] if elastic else []),
         ]
         for cable in sheet.cables
     ]
     console.emit_table(
-        [*header, *(["at most [N]"] if bounded else [])], rows, right=(0, 3, 4, 5, 8) if bounded else (0, 3, 4, 5)
+        [*header, *(["at most [N]"] if bounded else []), *(["unstretched [m]"] if elastic else [])],
+        rows,
+        right=(0, 3, 4, 5, 8, 9) if bounded else (0, 3, 4, 5, 8),
     )
     click.echo(
         "Largest force: on the frame, towards the platform, standing still where that can be held; tensions by the\n"

@@ -7,6 +7,7 @@ import numpy as np
 from actuator_select.model.arrays import BoolArray, FloatArray
 from actuator_select.model.demand import Demand, Progress
 from actuator_select.model.distribution import distribute
+from actuator_select.model.redundancy_one import unstretched_lengths
 from actuator_select.model.robot import CableRobot, Freedom
 from actuator_select.selection.cautions import Warned, demand_warnings
 from actuator_select.selection.places import study_demand
@@ -71,6 +72,9 @@ class CableSheet:
         World and platform frame. [m]
     shortest, longest : float
         Straight length between the anchors, over all positions and orientations. [m]
+    unstretched : tuple of float or None
+        Shortest and longest length of rope that is let out where the platform stands still, eq. 22 in Qi et al. 2020;
+        None without `cables.axial_stiffness_n`. [m]
     largest : FrameForce
         What it pulls its frame anchor with.
     tension_bound : float or None
@@ -84,6 +88,7 @@ class CableSheet:
     platform_anchor: tuple[float, float, float]
     shortest: float
     longest: float
+    unstretched: tuple[float, float] | None
     largest: FrameForce
     tension_bound: float | None
     speed: float
@@ -170,7 +175,7 @@ def robot_sheet(study: Study, progress: Progress | None = None) -> RobotSheet:
     robot, demand = study.robot, study_demand(study, progress=progress)
     groups = _same_points(robot.frame_anchors)
     single, joint = _Largest([[cable] for cable in range(robot.cables)]), _Largest(groups)
-    held = _stand_still(study, [single, joint])
+    held, let_out = _stand_still(study, [single, joint])
     cables = tuple(
         CableSheet(
             number=cable + 1,
@@ -178,6 +183,7 @@ def robot_sheet(study: Study, progress: Progress | None = None) -> RobotSheet:
             platform_anchor=_point(robot.platform_anchors[cable]),
             shortest=float(demand.lengths[:, cable].min()),
             longest=float(demand.lengths[:, cable].max()),
+            unstretched=let_out[cable],
             largest=single.found[cable],
             tension_bound=float(bound) if np.isfinite(bound := robot.bounds.tension_max[cable]) else None,
             speed=float(demand.speed[:, cable].max()),
@@ -202,9 +208,14 @@ def robot_sheet(study: Study, progress: Progress | None = None) -> RobotSheet:
     )
 
 
-def _stand_still(study: Study, found: list[_Largest]) -> BoolArray:
-    """Positions where the platform can stand still in every case, (P,); largest forces go to `found`."""
+def _stand_still(study: Study, found: list[_Largest]) -> tuple[BoolArray, list[tuple[float, float] | None]]:
+    """Positions where the platform can stand still in every case, (P,), and the rope let out there, per cable.
+
+    Largest forces go to `found`.
+    """
     held = np.ones(len(study.positions), dtype=np.bool_)
+    stiffness = study.robot.bounds.axial_stiffness
+    shortest, longest = np.full(len(stiffness), np.inf), np.zeros(len(stiffness))
     for orientation in study.orientations:
         for index, load in enumerate(study.loads):
             static = study.wrench(orientation, index).static
@@ -215,9 +226,15 @@ def _stand_still(study: Study, found: list[_Largest]) -> BoolArray:
                 holds = np.isfinite(shared.tension).all(axis=1)
                 held[start : start + len(positions)] &= holds
                 if holds.any():
+                    let_out = unstretched_lengths(shared.geometry.lengths[holds], shared.tension[holds], stiffness)
+                    shortest, longest = (
+                        np.minimum(shortest, let_out.min(axis=0)),
+                        np.maximum(longest, let_out.max(axis=0)),
+                    )
                     for one in found:
                         one.take(shared.tension[holds], shared.geometry.directions[holds], positions[holds], load.title)
-    return held
+    ends = zip(shortest.tolist(), longest.tolist(), np.isfinite(stiffness), strict=True)
+    return held, [(low, high) if stretches and low <= high else None for low, high, stretches in ends]
 
 
 def _same_points(anchors: FloatArray) -> list[list[int]]:
