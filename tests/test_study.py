@@ -10,7 +10,18 @@ from hypothesis import strategies as st
 
 from actuator_select.errors import ActuatorSelectError, InvalidStudy, UnknownName
 from actuator_select.model.actuation import Check
-from actuator_select.study import builtin_studies, load_study, parse_overrides, parse_study, study_text, template_text
+from actuator_select.model.motion import MotionKind
+from actuator_select.model.robot import Freedom
+from actuator_select.model.tension import TensionModel
+from actuator_select.study import (
+    builtin_studies,
+    load_study,
+    parse_overrides,
+    parse_study,
+    schema,
+    study_text,
+    template_text,
+)
 
 SAMPLED = {
     "set": "sampled",
@@ -34,6 +45,15 @@ def test_every_builtin_study_says_what_it_is(name: str) -> None:
     study = load_study(name)
     assert study.name == name
     assert study.table.description
+
+
+def test_the_readme_names_every_key_of_a_study() -> None:
+    readme = (Path(__file__).parents[1] / "README.md").read_text(encoding="utf-8")
+    keys = readme.split("## Study files")[1].split("## Catalogue")[0]
+    tables = [one for one in vars(schema).values() if isinstance(one, type) and issubclass(one, schema.Table)]
+    names = {name for table in tables if table is not schema.StudyTable for name in table.model_fields}
+    assert [name for name in sorted(names) if not re.search(rf"\b{name}\b", keys)] == []
+    assert all(f"`{word}`" in keys for word in (*schema.BUILDER_KEYS, *MotionKind, *TensionModel, *Freedom))
 
 
 def test_the_starter_study_works_as_it_stands() -> None:

@@ -98,10 +98,17 @@ def print_robot(sheet: "RobotSheet") -> None:
         f"{DISTRIBUTION[sheet.study.tension_model]}.\n"
         "Motion comes on top; a frame that bears the greatest tensions allowed bears it."
     )
+    _print_shared_points(sheet, header[6:8])
+    for warning in sheet.warnings:
+        console.warn(warning.text)
+
+
+def _print_shared_points(sheet: "RobotSheet", where: list[str]) -> None:
+    """Print the frame points that several cables share; `where` heads the last two columns."""
     shared = [point for point in sheet.frame_points if len(point.cables) > 1]
     if shared:
         console.emit_table(
-            ["cables", "frame point they share [m]", "largest force together [N]", *header[6:8]],
+            ["cables", "frame point they share [m]", "largest force together [N]", *where],
             [
                 [
                     " and ".join(str(number) for number in point.cables),
@@ -114,8 +121,6 @@ def print_robot(sheet: "RobotSheet") -> None:
             ],
             right=(2,),
         )
-    for warning in sheet.warnings:
-        console.warn(warning.text)
 
 
 def _vector(vector: tuple[float, float, float] | None, digits: int = 3) -> str:

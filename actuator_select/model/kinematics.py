@@ -8,6 +8,7 @@ from actuator_select.model.arrays import BoolArray, FloatArray
 from actuator_select.model.robot import CableRobot
 
 LEAST_CABLE_LENGTH = 1e-9  # m; a shorter cable has no direction that rounding leaves
+LENGTH_TOLERANCE = 1e-9  # relative; a cable shorter than its least length by less is rounding
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -142,7 +143,8 @@ def too_near(robot: CableRobot, positions: FloatArray, orientations: FloatArray)
     for cable in np.flatnonzero(robot.bounds.length_min > 0.0):
         for rotation in rotation_matrix(orientations):
             end = robot.frame_anchors[cable] - rotation @ robot.platform_anchors[cable]
-            near |= np.linalg.norm(positions - end, axis=1) < robot.bounds.length_min[cable]
+            least = robot.bounds.length_min[cable] * (1.0 - LENGTH_TOLERANCE)
+            near |= np.linalg.norm(positions - end, axis=1) < least
     return near
 
 

@@ -1,8 +1,9 @@
-"""From the tables of a study file to the robot."""
+"""From the tables of a study file to robot, loads and motion."""
 
 import csv
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from itertools import product
 from math import radians
 from pathlib import Path
 
@@ -10,6 +11,7 @@ import numpy as np
 
 from actuator_select.errors import InvalidStudy, Problem
 from actuator_select.model.arrays import FloatArray
+from actuator_select.model.dynamics import Load
 from actuator_select.model.families import (
     Routing,
     constrained_eight,
@@ -20,9 +22,27 @@ from actuator_select.model.families import (
     six_six,
     suspended_eight,
 )
+from actuator_select.model.motion import (
+    MotionKind,
+    MotionSet,
+    SetShape,
+    independent_motion,
+    listed_motion,
+    rest,
+    sampled_motion,
+)
 from actuator_select.model.robot import CableBounds, CableRobot, Counterbalance, Freedom, Plane, RigidBody
 from actuator_select.model.tension import TensionModel
-from actuator_select.study.schema import LARGE, REGIONS, CablesTable, CounterbalanceTable, RobotTable, StudyTable
+from actuator_select.study.schema import (
+    LARGE,
+    REGIONS,
+    CablesTable,
+    CounterbalanceTable,
+    PayloadTable,
+    RobotTable,
+    StudyTable,
+    WorkspaceTable,
+)
 
 ANCHOR_COLUMNS = (
     "cable",
@@ -231,3 +251,71 @@ def _region(table: StudyTable, place: str) -> FloatArray:
         )
         raise InvalidStudy(f"{place} does not hold", [problem])
     return region
+
+
+def build_orientations(workspace: WorkspaceTable) -> FloatArray:
+    """Angles ψ, θ, φ that every position is taken at, (O, 3). [rad]"""
+    if workspace.orientation_grid_deg is not None:
+        return np.radians(np.array(list(product(*workspace.orientation_grid_deg)), dtype=np.float64))
+    return np.array(workspace.orientations_rad, dtype=np.float64)
+
+
+def build_load(payload: PayloadTable) -> Load:
+    """What one payload table asks to be held."""
+    force, moment = np.array(payload.force_n), np.array(payload.moment_n_m)
+    force_reach, moment_reach = np.array(payload.force_reach_n), np.array(payload.moment_reach_n_m)
+    return Load(
+        title=payload.title,
+        body=rigid_body(payload.mass_kg, payload.centre_of_gravity_m, payload.inertia_kg_m2),
+        force_lower=force - force_reach,
+        force_upper=force + force_reach,
+        moment_lower=moment - moment_reach,
+        moment_upper=moment + moment_reach,
+    )
+
+
+def build_motion(table: StudyTable) -> MotionSet:
+    """Motions that have to be possible at every pose."""
+    motion = table.motion
+    if motion.set == "rest":
+        return rest(centripetal=motion.centripetal)
+    if motion.set == "list":
+        listed = [
+            [
+                one.velocity_m_per_s,
+                one.acceleration_m_per_s2,
+                one.angular_velocity_rad_per_s,
+                one.angular_acceleration_rad_per_s2,
+            ]
+            for one in motion.case
+        ]
+        return listed_motion(np.array(listed, dtype=np.float64), centripetal=motion.centripetal)
+    ramps = (motion.speed_max_m_per_s, motion.acceleration_time_s, motion.deceleration_time_s)
+    speed, up, down = (float(value or 0.0) for value in ramps)  # the schema has seen to it that none is missing
+    if motion.set == "sampled":
+        return sampled_motion(
+            speed,
+            up,
+            down,
+            velocity_intervals=motion.velocity_intervals,
+            acceleration_levels=motion.acceleration_levels,
+            centripetal=motion.centripetal,
+        )
+    straight = motion.set == "straight"
+    return independent_motion(
+        speed,
+        up,
+        down,
+        centripetal=motion.centripetal,
+        kind=MotionKind.STRAIGHT if straight else MotionKind.INDEPENDENT,
+        velocity_shape=SetShape(motion.velocity_set),
+        acceleration_shape=SetShape.BALL if straight else _acceleration_shape(table),
+        angular_speed=motion.angular_speed_max_rad_per_s,
+    )
+
+
+def _acceleration_shape(table: StudyTable) -> SetShape:
+    """The published model goes with the published box; everything newer with a ball, unless the study says."""
+    if table.motion.acceleration_set is not None:
+        return SetShape(table.motion.acceleration_set)
+    return SetShape.BOX if TensionModel(table.tension.model).lets_cables_push else SetShape.BALL

@@ -4,7 +4,6 @@ from collections.abc import Callable, Iterator, Mapping
 from copy import deepcopy
 from dataclasses import dataclass, replace
 from importlib import resources
-from itertools import product
 from pathlib import Path
 
 import numpy as np
@@ -17,22 +16,14 @@ from actuator_select.model.actuation import Check
 from actuator_select.model.arrays import FloatArray
 from actuator_select.model.dynamics import Load, RequiredWrench, platform_wrench
 from actuator_select.model.kinematics import LEAST_CABLE_LENGTH, least_cable_lengths, position_grid
-from actuator_select.model.motion import (
-    MotionKind,
-    MotionSet,
-    SetShape,
-    independent_motion,
-    listed_motion,
-    rest,
-    sampled_motion,
-)
+from actuator_select.model.motion import MotionSet
 from actuator_select.model.robot import CableRobot
 from actuator_select.model.tension import TensionModel
-from actuator_select.study.building import build_robot, rigid_body
+from actuator_select.study.building import build_load, build_motion, build_orientations, build_robot
 from actuator_select.study.overrides import apply_overrides
 from actuator_select.study.problems import study_problems
 from actuator_select.study.refusals import refuse_too_many_poses, refuse_what_cannot_be
-from actuator_select.study.schema import PayloadTable, StudyTable, WorkspaceTable
+from actuator_select.study.schema import StudyTable
 
 VARIANT_TABLES = ("gravity_m_per_s2", "robot", "cables", "payload", "workspace", "motion", "tension", "checks")
 NOT_IN_VARIANTS = ("variant", "sweep", "note")
@@ -303,8 +294,8 @@ def _build(content: dict[str, object], text: str, place: str, source: str, *, li
         raise InvalidStudy(f"{place} does not hold", study_problems(error, content)) from error
     workspace = table.workspace
     robot, region = build_robot(table, place, Path(source).parent)
-    orientations = _orientations(workspace)
-    loads = tuple(_load(one) for one in table.payload)
+    orientations = build_orientations(workspace)
+    loads = tuple(build_load(one) for one in table.payload)
     if limit:
         refuse_too_many_poses(table, robot, len(orientations), place)
     study = Study(
@@ -317,7 +308,7 @@ def _build(content: dict[str, object], text: str, place: str, source: str, *, li
         positions=position_grid(region, workspace.points, midpoints=workspace.grid == "midpoints"),
         orientations=orientations,
         loads=loads,
-        motion=_motion(table),
+        motion=build_motion(table),
         tension_model=TensionModel(table.tension.model),
         checks=tuple(check for check in Check if check.value in table.checks.apply),
     )
@@ -357,68 +348,3 @@ def _overridden(text: str, overrides: Mapping[str, object], place: str) -> str:
     document = _parsed(text, place)
     apply_overrides(document, overrides)
     return tomlkit.dumps(document)
-
-
-def _orientations(workspace: WorkspaceTable) -> FloatArray:
-    if workspace.orientation_grid_deg is not None:
-        return np.radians(np.array(list(product(*workspace.orientation_grid_deg)), dtype=np.float64))
-    return np.array(workspace.orientations_rad, dtype=np.float64)
-
-
-def _load(payload: PayloadTable) -> Load:
-    force, moment = np.array(payload.force_n), np.array(payload.moment_n_m)
-    force_reach, moment_reach = np.array(payload.force_reach_n), np.array(payload.moment_reach_n_m)
-    return Load(
-        title=payload.title,
-        body=rigid_body(payload.mass_kg, payload.centre_of_gravity_m, payload.inertia_kg_m2),
-        force_lower=force - force_reach,
-        force_upper=force + force_reach,
-        moment_lower=moment - moment_reach,
-        moment_upper=moment + moment_reach,
-    )
-
-
-def _motion(table: StudyTable) -> MotionSet:
-    motion = table.motion
-    if motion.set == "rest":
-        return rest(centripetal=motion.centripetal)
-    if motion.set == "list":
-        listed = [
-            [
-                one.velocity_m_per_s,
-                one.acceleration_m_per_s2,
-                one.angular_velocity_rad_per_s,
-                one.angular_acceleration_rad_per_s2,
-            ]
-            for one in motion.case
-        ]
-        return listed_motion(np.array(listed, dtype=np.float64), centripetal=motion.centripetal)
-    ramps = (motion.speed_max_m_per_s, motion.acceleration_time_s, motion.deceleration_time_s)
-    speed, up, down = (float(value or 0.0) for value in ramps)  # the schema has seen to it that none is missing
-    if motion.set == "sampled":
-        return sampled_motion(
-            speed,
-            up,
-            down,
-            velocity_intervals=motion.velocity_intervals,
-            acceleration_levels=motion.acceleration_levels,
-            centripetal=motion.centripetal,
-        )
-    straight = motion.set == "straight"
-    return independent_motion(
-        speed,
-        up,
-        down,
-        centripetal=motion.centripetal,
-        kind=MotionKind.STRAIGHT if straight else MotionKind.INDEPENDENT,
-        velocity_shape=SetShape(motion.velocity_set),
-        acceleration_shape=SetShape.BALL if straight else _acceleration_shape(table),
-        angular_speed=motion.angular_speed_max_rad_per_s,
-    )
-
-
-def _acceleration_shape(table: StudyTable) -> SetShape:
-    """The published model goes with the published box; everything newer with a ball, unless the study says."""
-    if table.motion.acceleration_set is not None:
-        return SetShape(table.motion.acceleration_set)
-    return SetShape.BOX if TensionModel(table.tension.model).lets_cables_push else SetShape.BALL

@@ -81,7 +81,8 @@ def apply_overrides(document: MutableMapping[str, Any], overrides: Mapping[str, 
     document : mutable mapping
         The study, plain or as tomlkit parsed it.
     overrides : mapping of str to object
-        Dotted key to value. A table that is missing is made, an unknown key is left for the study's validation.
+        Dotted key to value. A table that is missing is made, an unknown key is left for the study's validation; in a
+        list with a single table, that table is meant.
 
     Raises
     ------
@@ -98,8 +99,8 @@ def apply_overrides(document: MutableMapping[str, Any], overrides: Mapping[str, 
                 if isinstance(following, int):
                     _default_list(container, steps[: depth + 1])
                 container = container[step]
-                if isinstance(container, list) and len(container) == 1 and isinstance(following, str):
-                    container = container[0]  # the only table of its list, such as a single [[payload]]
+                if isinstance(following, str) and isinstance(container, list) and len(container) == 1:
+                    container = container[0]  # of a single [[payload]], payload.mass_kg says which is meant
             container[steps[-1]] = value
         except (KeyError, IndexError, TypeError, TOMLKitError) as error:
             raise InvalidStudy(
@@ -108,7 +109,7 @@ def apply_overrides(document: MutableMapping[str, Any], overrides: Mapping[str, 
                     Problem(
                         place=key,
                         value="leads nowhere",
-                        expected="a key of the study, such as motion.speed_max_m_per_s",
+                        expected="a key of the study, such as motion.speed_max_m_per_s or payload[0].mass_kg",
                         remedy="`actuator-select study show` prints the study with its keys",
                     )
                 ],

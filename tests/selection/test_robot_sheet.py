@@ -5,7 +5,7 @@ import pytest
 
 from actuator_select.selection.robot_record import COLUMNS, cable_row, robot_items, robot_record
 from actuator_select.selection.robot_sheet import RobotSheet, robot_sheet
-from actuator_select.study import TemplateOptions, load_study, parse_study, template_text
+from actuator_select.study import load_study, parse_study, template_text
 
 TWO_CABLES = """
 name = "two"
@@ -87,8 +87,15 @@ def test_the_case_study_is_warned_of() -> None:
 
 
 def test_a_robot_with_similar_anchors_seen_from_the_side_is_warned_of() -> None:
-    options = TemplateOptions(hall=(20.0, 5.0, 5.0), platform=(0.5, 0.5, 0.5))
-    sheet = sheet_of(template_text("a", "constrained-8", options))
+    corners = [(-1.0, -1.0), (-1.0, 1.0), (1.0, 1.0), (1.0, -1.0)]
+    cables = "".join(
+        f"[[robot.cable]]\nframe_anchor_m = [{10.0 * x}, {2.5 * y}, {2.5 * up}]\n"
+        f"platform_anchor_m = [{0.25 * x}, {-0.25 * y}, {-0.25 * up}]\n"  # crossed along y and z alike
+        for up in (1.0, -1.0)
+        for x, y in corners
+    )
+    head, _, rest = TWO_CABLES.partition("[[robot.cable]]")
+    sheet = sheet_of(head.replace("2T", "3R3T") + cables + rest[rest.index("[cables]") :])
     assert sheet.singular == sheet.positions
     assert [one.text[:12] for one in sheet.warnings if one.code == "similar_anchors"] == ["Seen along x"]
 

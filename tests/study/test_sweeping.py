@@ -74,3 +74,11 @@ def test_an_entry_of_a_list_left_at_its_default_can_be_set() -> None:
     assert study.table.payload[0].force_n == (0.0, 0.0, -5.0)
     with pytest.raises(InvalidStudy, match="leads nowhere"):
         parse_study(template_text("x"), place="x.toml", overrides={"payload.force_n[3]": -5.0})
+
+
+def test_of_several_tables_a_key_has_to_name_one() -> None:
+    two = template_text("x").replace("[workspace]", '[[payload]]\ntitle = "empty"\nmass_kg = 1.0\n\n[workspace]', 1)
+    study = parse_study(two, place="x.toml", overrides={"payload[1].mass_kg": 2.0})
+    assert study.table.payload[1].mass_kg == 2.0
+    with pytest.raises(InvalidStudy, match="leads nowhere"):
+        parse_study(two, place="x.toml", overrides={"payload.mass_kg": 2.0})
