@@ -176,7 +176,7 @@ class _Problem:
         if columns.shape[1] == 0:
             return result
         cables = self.robot.cables
-        torque = self._torque()[at]
+        torque, constant = self._torque()[at], self._constant_limits()[at]
         for normal, _ in facet_normals(columns):
             pulls = in_hyperplane(np.einsum("qr,qrm->qm", normal, columns), columns)
             whole = np.einsum("qnr,qr->qn", base, normal)
@@ -187,10 +187,25 @@ class _Problem:
                 with_it, against = np.maximum(sign * pulls, 0.0), np.maximum(-sign * pulls, 0.0)
                 needed = sign * middle + external + against @ self.lower
                 needed = needed - _times(with_it[:, cables:], self.upper)
-                room = self._room(at, with_it[:, :cables], sign * lever, torque)
-                size = np.abs(middle) + external + np.abs(room) + np.linalg.norm(lever, axis=1) * self._acceleration[0]
-                result &= needed <= room + WRENCH_TOLERANCE * size
+                # Constant limits leave no more room than the least of all motions does: most normals need no more.
+                asked = extent(lever, self._acceleration, self.motion.acceleration_shape)
+                open_ = np.flatnonzero(result & (needed > _times(with_it[:, :cables], constant) - asked))
+                if not len(open_):
+                    continue
+                pulling, moved = with_it[open_, :cables], sign * lever[open_]
+                room = self._room(at[open_], pulling, moved, torque[open_])
+                size = np.abs(middle[open_]) + external[open_] + np.abs(room) + asked[open_]
+                result[open_] = needed[open_] <= room + WRENCH_TOLERANCE * size
         return result
+
+    def _constant_limits(self) -> FloatArray:
+        """Least that every cable's own worst speed and acceleration leave of its limits, (q, m)."""
+        acceleration, speed = self._along()
+        lines = self.lines
+        by_torque = self._torque() - lines.torque_mass * acceleration
+        return np.minimum(
+            by_torque, lines.voltage - lines.voltage_mass * acceleration - lines.voltage_damping * speed
+        )
 
     def _torque(self) -> FloatArray:
         """Torque line's force at rest, lowered where the rope is weaker than the drive, (q, m)."""
