@@ -98,7 +98,13 @@ def print_simulation(run: "Simulation") -> None:
     """Print the peaks per actuator, what exceeds which limit when, and warnings."""
     from actuator_select.model.actuation import Check
     from actuator_select.selection.simulation import UNITS
-    from actuator_select.selection.wording import exceedance_words, missing_words, move_words, pushing_words
+    from actuator_select.selection.wording import (
+        exceedance_words,
+        missing_words,
+        move_words,
+        pushing_words,
+        unheld_words,
+    )
 
     click.echo(move_words(run))
     header = ["actuator", *(f"|{check.value}| [{UNITS[check]}]" for check in Check)]
@@ -109,10 +115,12 @@ def print_simulation(run: "Simulation") -> None:
     rows.append(["limit", *(_cell(run.limits[check]) for check in Check)])
     console.emit_table(header, rows, right=range(1, 5))
     click.echo("Largest magnitudes at the shaft behind the gearbox (voltage at the motor's terminals).")
+    for text in unheld_words(run):
+        click.echo(f"  {text}")
     if run.exceedances:
         for exceedance in run.exceedances:
             click.echo(f"  {exceedance_words(exceedance)}")
-    elif not run.missing:
+    elif not run.missing and not run.unheld:
         click.echo("Every limit holds over the whole move.")
     for check, missing in run.missing.items():
         click.echo(f"  {check.value} not evaluated: {missing_words(missing)} unknown")

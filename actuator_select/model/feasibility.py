@@ -27,8 +27,9 @@ class Holding:
     minimax_tension : (q, G) array
         t*, the least uniform upper bound of the cable tensions; infinite where the pose is infeasible. [N]
     margin : (q, G) array
-        Least distance to a facet of the available wrenches, moments divided by the characteristic length; where the
-        rank is short, within the wrenches that can be exerted at all, or -infinite where others are required. [N]
+        Least distance to a facet of the available wrenches, moments divided by the characteristic length. Where the
+        rank is short it is never above 0, because what is required lies on the border of what can be exerted, and
+        -infinite where something is required that cannot be exerted at all. [N]
     rank : (q,) array
         Of the columns.
     """
@@ -153,7 +154,7 @@ def _hold_short(  # noqa: PLR0913, PLR0917
         columns_inside = np.einsum("qnm,qnr->qrm", columns, own)
         shift_inside = np.einsum("qn,qnr->qr", shift, own)
         least, margin = minimax(columns_inside, inside, np.arange(len(which)), shift_inside, bounds)
-    return np.where(balanced, least, np.inf), np.where(balanced, margin, -np.inf)
+    return np.where(balanced, least, np.inf), np.where(balanced, np.minimum(margin, 0.0), -np.inf)
 
 
 def _tools(normals: int) -> tuple[Minimax, RankTest | None]:

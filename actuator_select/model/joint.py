@@ -203,9 +203,7 @@ class _Problem:
         acceleration, speed = self._along()
         lines = self.lines
         by_torque = self._torque() - lines.torque_mass * acceleration
-        return np.minimum(
-            by_torque, lines.voltage - lines.voltage_mass * acceleration - lines.voltage_damping * speed
-        )
+        return np.minimum(by_torque, lines.voltage - lines.voltage_mass * acceleration - lines.voltage_damping * speed)
 
     def _torque(self) -> FloatArray:
         """Torque line's force at rest, lowered where the rope is weaker than the drive, (q, m)."""

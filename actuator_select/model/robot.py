@@ -216,6 +216,12 @@ class CableRobot:
         return {Freedom.SPATIAL: (0, 1, 2), Freedom.PLANAR: (self.plane_normal,)}.get(self.freedom, ())
 
     @property
+    def leaves_out_moments(self) -> bool:
+        """Whether the platform counts as a point although its cables do not meet in one."""
+        point = self.freedom in (Freedom.POINT_IN_PLANE, Freedom.POINT)
+        return point and bool(self.platform_anchors.any())
+
+    @property
     def degrees_of_freedom(self) -> int:
         """Number n of equations that the cables have to balance."""
         return len(self.wrench_rows)

@@ -27,7 +27,7 @@ class Warned:
     text: str
 
 
-def demand_warnings(demand: Demand, *, apart: int = 0) -> tuple[Warned, ...]:
+def demand_warnings(demand: Demand, *, apart: int = 0, moments_left_out: bool = False) -> tuple[Warned, ...]:
     """What a demand rests on that real cables cannot do, with the positions concerned.
 
     Parameters
@@ -36,6 +36,8 @@ def demand_warnings(demand: Demand, *, apart: int = 0) -> tuple[Warned, ...]:
         Under any tension model.
     apart : int
         Positions that were set apart because a cable would be too short.
+    moments_left_out : bool
+        Whether the robot's degrees of freedom leave out moments that its cables exert.
 
     Returns
     -------
@@ -49,7 +51,7 @@ def demand_warnings(demand: Demand, *, apart: int = 0) -> tuple[Warned, ...]:
     found = (
         (
             "moments_left_out",
-            everywhere if demand.tension_model is TensionModel.FORCE_ONLY else nowhere,
+            everywhere if demand.tension_model is TensionModel.FORCE_ONLY or moments_left_out else nowhere,
             "moments are not balanced: the platform hangs, and may turn",
         ),
         (

@@ -62,10 +62,13 @@ class MissedPlaces:
         Whether it serves all of them; None where an unknown figure leaves it open.
     titles : tuple of str
         Of those that it does not serve, or is not known to.
+    for_any_drive : tuple of str
+        Of those that no drive could serve.
     """
 
     served: bool | None
     titles: tuple[str, ...]
+    for_any_drive: tuple[str, ...] = ()
 
 
 def missed_places(study: Study, actuators: ActuatorSet) -> list[MissedPlaces]:
@@ -88,6 +91,7 @@ def missed_places(study: Study, actuators: ActuatorSet) -> list[MissedPlaces]:
         return [MissedPlaces(served=True, titles=())] * len(actuators)
     served = np.ones((len(actuators), len(places)), dtype=np.bool_)
     known = served.copy()
+    attainable: list[bool] = []
     for index, place in enumerate(places):
         positions = (
             np.array([place.position_m])
@@ -97,15 +101,18 @@ def missed_places(study: Study, actuators: ActuatorSet) -> list[MissedPlaces]:
         demand = study_demand(study, positions)
         utilisation = np.stack(list(position_utilisation(demand, actuators, study.checks).values()))
         served[:, index] = (np.nan_to_num(utilisation) <= 1.0 + ROUNDING).all(axis=(0, 2))
-        served[:, index] &= demand.attainable_positions.all()
+        attainable.append(bool(demand.attainable_positions.all()))
+        served[:, index] &= attainable[-1]
         known[:, index] = ~np.isnan(utilisation).any(axis=(0, 2))
-    titles = [place.title for place in places]
+    titles = [place.title or f"place {number}" for number, place in enumerate(places, start=1)]
+    beyond = tuple(title for title, holds in zip(titles, attainable, strict=True) if not holds)
     return [
         MissedPlaces(
             served=False if not one.all() else None if not sure.all() else True,
             titles=tuple(
                 title for title, holds, certain in zip(titles, one, sure, strict=True) if not holds or not certain
             ),
+            for_any_drive=beyond,
         )
         for one, sure in zip(served, known, strict=True)
     ]

@@ -35,6 +35,7 @@ def selection_record(selection: Selection, *, only_meeting: bool = False) -> dic
         "attainable_poses": selection.attainable_poses,
         "attainable_percent": round(selection.attainable_percent, 2),
         "robot_falls_short": selection.robot_falls_short,
+        "unattainable_places": list(selection.unattainable_places),
         "required_percent": selection.required_percent,
         "warnings": [{"code": one.code, "poses": one.poses, "text": one.text} for one in selection.warnings],
         "actuators": [
@@ -108,6 +109,8 @@ def simulation_record(run: Simulation) -> dict[str, Any]:
             }
             for one in run.exceedances
         ],
+        "can_be_held": not run.unheld,
+        "not_held": [{"from_s": start, "to_s": stop} for start, stop in run.unheld],
         "not_evaluated": {check.value: list(missing) for check, missing in run.missing.items()},
         "negative_tension_cables": run.pushing,
         "rank_deficient": bool(run.history.rank_deficient.any()),

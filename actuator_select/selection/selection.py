@@ -179,6 +179,8 @@ class Selection:
         Of the catalogue's content.
     where : str
         Condition on the candidates beside the study's own.
+    unattainable_places : tuple of str
+        Places of `requirement.must_serve` that no drive could serve.
     """
 
     result: StudyEvaluation
@@ -187,6 +189,7 @@ class Selection:
     warnings: tuple[Warned, ...]
     fingerprint: str
     where: str = ""
+    unattainable_places: tuple[str, ...] = ()
 
     @property
     def study(self) -> Study:
@@ -211,7 +214,8 @@ class Selection:
     @property
     def robot_falls_short(self) -> bool:
         """Whether no drive at all could meet the requirement, so that the robot has to change."""
-        return not meets_share(np.array(self.attainable_poses), self.poses, self.required_percent)
+        enough = meets_share(np.array(self.attainable_poses), self.poses, self.required_percent)
+        return not enough or bool(self.unattainable_places)
 
     def shown(self, *, only_meeting: bool = False) -> tuple[RankedActuator, ...]:
         """Actuators, best first; only those that meet the requirement if so asked."""
@@ -357,9 +361,14 @@ def rank_result(result: StudyEvaluation, *, require: float | None, fingerprint: 
         result=result,
         required_percent=required,
         ranked=ranked,
-        warnings=demand_warnings(evaluation.demand, apart=len(result.study.positions) - result.poses),
+        warnings=demand_warnings(
+            evaluation.demand,
+            apart=len(result.study.positions) - result.poses,
+            moments_left_out=result.study.robot.leaves_out_moments,
+        ),
         fingerprint=fingerprint,
         where=where,
+        unattainable_places=missed[0].for_any_drive if missed else (),
     )
 
 

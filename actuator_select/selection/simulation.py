@@ -78,10 +78,19 @@ class Simulation:
         return {check: figures for check, figures in lacking.items() if figures}
 
     @property
+    def unheld(self) -> tuple[tuple[float, float], ...]:
+        """Stretches of time in which no tensions within their bounds hold the platform, by the instants. [s]"""
+        infeasible, times = self.history.infeasible, self.history.times
+        edges = np.flatnonzero(np.diff(np.concatenate([[False], infeasible, [False]]).astype(np.int8)))
+        return tuple(
+            (float(times[first]), float(times[behind - 1]))
+            for first, behind in zip(edges[::2], edges[1::2], strict=True)
+        )
+
+    @property
     def glossed_over(self) -> list[str]:
         """What the tension model glosses over during the move, for people."""
         shares = (
-            (self.history.infeasible, "no tensions within their bounds hold the platform, and none are shown"),
             (self.history.rank_deficient, "the structure matrix is short of rank"),
             (self.history.unbalanced, "the pseudo-inverse leaves part of the required wrench unbalanced"),
         )

@@ -3,6 +3,8 @@
 from collections.abc import Sequence
 from math import inf, isinf
 
+import numpy as np
+
 from actuator_select.model.arrays import FloatArray
 from actuator_select.model.exceedance import Exceedance
 from actuator_select.model.motion import MotionKind, SetShape
@@ -57,7 +59,7 @@ def check_cell(verdict: CheckVerdict, total: int) -> str:
 def utilisation_words(utilisation: float) -> str:
     """Demand over limit; undefined where a cable has no length."""
     if isinf(utilisation):
-        return "undefined"
+        return "–"
     return f"{utilisation:.3f}" if utilisation < LARGE else f"{utilisation:.3g}"
 
 
@@ -216,7 +218,10 @@ def summary(selection: Selection) -> list[str]:
         f"Attainable by any drive, however strong: {count_of(selection.attainable_poses, total)}"
         f" under {selection.study.tension_model.value}"
     )
-    if selection.robot_falls_short:
+    if selection.unattainable_places:
+        named = ", ".join(selection.unattainable_places)
+        attainable += f". No drive could serve {named}, as required: the robot has to change, not the drive."
+    elif selection.robot_falls_short:
         attainable += f". Below the required {required:g} %: the robot has to change, not the drive."
     elif selection.study.tension_model.lets_cables_push:
         attainable += ", which lets cables push."
@@ -248,8 +253,11 @@ def limit_words(actuator: RankedActuator, total: int) -> str:
     if verdict.worst_utilisation is None or verdict.worst_position is None:
         return "What limits it: nothing that a drive could change; no position is attainable."
     where = ", ".join(f"{axis} {value:.3f}" for axis, value in zip("xyz", verdict.worst_position, strict=True))
+    begins = "What limits it"
+    if actuator.feasible_poses == total:
+        begins = "Nearest to its limit"
     return (
-        f"What limits it: {check.value} ({verdict.poses}/{total} on its own), most at {where} m, "
+        f"{begins}: {check.value} ({verdict.poses}/{total} on its own), most at {where} m, "
         f"where the demand is {utilisation_words(verdict.worst_utilisation)} of the limit."
     )
 
@@ -279,6 +287,33 @@ def exceedance_words(exceedance: Exceedance) -> str:
         f"actuator {exceedance.actuator}: {exceedance.check.value} over its limit from {exceedance.start:.3f} s to "
         f"{exceedance.stop:.3f} s, up to {exceedance.worst:.4g} {unit} of {exceedance.limit:.4g} {unit} ({over:+.1f} %)"
     )
+
+
+def unheld_words(run: Simulation) -> list[str]:
+    """Where a move cannot be made, whatever drives the robot, a sentence per stretch of time."""
+    move = run.move
+    line = (move.stop - move.start) / move.profile.distance
+    found = []
+    for start, stop in run.unheld:
+        where = move.start + line * float(np.interp(start, *_way(run)))
+        at = ", ".join(f"{value:.3f}" for value in where)
+        found.append(
+            f"the move cannot be made: no tensions within their bounds hold the platform from {start:.3f} s, at "
+            f"({at}) m, to {stop:.3f} s; the figures leave that out"
+        )
+    return found
+
+
+def _way(run: Simulation) -> tuple[FloatArray, FloatArray]:
+    """Times [s] and way covered [m], dense enough to name a place."""
+    profile = run.move.profile
+    corners = profile.corners
+    times, way = [], []
+    for phase in range(3):
+        instants = np.linspace(corners[phase], corners[phase + 1], 101)
+        times.append(instants)
+        way.append(profile.motion(instants, phase)[0])
+    return np.concatenate(times), np.concatenate(way)
 
 
 def pushing_words(run: Simulation) -> str:

@@ -312,7 +312,8 @@ def _reasons(
     equations = len(balanced_rows(robot, model))
     if robot.cables < equations:
         reasons.append(
-            f"{robot.cables} cables cannot balance {equations} equations, but for loads that happen to lie in the "
+            f"{robot.cables} cable{'s' if robot.cables > 1 else ''} cannot balance {equations} equations, but for loads "
+            f"that happen to lie in the "
             f"range of the structure matrix: add cables, or state fewer degrees of freedom."
         )
     if verdicts.short_of_rank[judged].all():
@@ -338,9 +339,10 @@ def _asking_for_less(
     def count(changed: Study, asked: WorkspaceKind) -> int:
         return int(_judge(changed, asked, over, model, positions=positions).feasible.sum())
 
+    if kind is WorkspaceKind.DYNAMIC and (held := count(study, WorkspaceKind.WRENCH)):
+        return [f"At rest {held} {tried} hold: the motion set asks for too much."]
     if kind is not WorkspaceKind.STATIC and (held := count(study, WorkspaceKind.STATIC)):
-        less = "the motion set asks" if kind is WorkspaceKind.DYNAMIC else "the box of external loads asks"
-        return [f"At rest, external loads at the centre of their box, {held} {tried} hold: {less} for too much."]
+        return [f"With external loads at the centre of their box {held} {tried} hold: the box asks for too much."]
     if np.isfinite(robot.bounds.tension_max).any() and (held := count(free, kind)):
         return [f"With no upper bound of the tension {held} {tried} would hold: cables.tension_max_n is too small."]
     if robot.bounds.tension_min.any():
@@ -348,11 +350,16 @@ def _asking_for_less(
         if held := count(replace(free, robot=replace(robot, bounds=slack)), kind):
             found.append(f"With tensions from 0 {held} {tried} would hold: cables.tension_min_n is too large.")
     if not found:
-        pulls = "The pseudo-inverse's tensions do not" if model.lets_cables_push else "No tensions of pulling cables"
-        found.append(
-            f"{pulls} balance what is asked at any {tried}, however strong the cables are: "
-            f"the anchors have to change, or the platform is outside of what they span."
-        )
+        if model.lets_cables_push:
+            found.append(
+                f"At none {tried} do the tensions of least norm balance what is asked without one below its bound; "
+                f"other tensions might: --tension-model wrench_feasible."
+            )
+        else:
+            found.append(
+                f"No tensions of pulling cables balance what is asked at any {tried}, however strong the cables are: "
+                f"the anchors have to change, or the platform is outside of what they span."
+            )
     return found
 
 

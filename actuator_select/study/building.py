@@ -136,7 +136,7 @@ _BUILDERS: dict[str, Callable[[RobotTable], CableRobot]] = {
 def read_anchors(path: Path, place: str) -> FloatArray:
     """Anchors of a CSV file with the columns `ANCHOR_COLUMNS`, (m, 6). [m]
 
-    Cables are numbered by their rows; the column ``cable`` is a name for people.
+    Cables are numbered by their rows; the column ``cable`` is a name for people, each once.
 
     Raises
     ------
@@ -154,29 +154,42 @@ def read_anchors(path: Path, place: str) -> FloatArray:
     missing = [name for name in ANCHOR_COLUMNS if not rows or name not in rows[0]]
     if missing:
         problem = Problem(
-            place=f"{path.name}, line 1",
+            place=f"{path}, line 1",
             value=f"no column {', '.join(missing)}" if rows else "no rows",
             expected=f"the columns {', '.join(ANCHOR_COLUMNS)} and a row per cable",
+            remedy="separate columns with commas, and write decimals with points",
         )
         raise InvalidStudy(f"{place} does not hold", [problem])
     anchors, problems = np.zeros((len(rows), 6)), []
-    for line, row in enumerate(rows):
-        for column, name in enumerate(ANCHOR_COLUMNS[1:]):
-            try:
-                anchors[line, column] = float(row[name])
-            except (TypeError, ValueError):
-                anchors[line, column] = np.nan
-            if not abs(anchors[line, column]) <= LARGE:
-                problems.append(
-                    Problem(
-                        place=f"{path.name}, line {line + 2}, {name}",
-                        value=repr(row[name]),
-                        expected=f"a number from -{LARGE:g} to {LARGE:g} [m]",
-                    )
-                )
+    names: dict[str, int] = {}
+    for line, row in enumerate(rows, start=2):
+        where = f"{path}, line {line}"
+        if None in row:
+            value = f"{len(ANCHOR_COLUMNS) + len(row[None])} cells"
+            problems.append(Problem(place=where, value=value, expected=f"{len(ANCHOR_COLUMNS)}, one per column"))
+        name = str(row["cable"])
+        if name in names:
+            value = f"cable {name!r} stands in line {names[name]} already"
+            problems.append(Problem(place=where, value=value, expected="every cable once"))
+        names.setdefault(name, line)
+        for column, key in enumerate(ANCHOR_COLUMNS[1:]):
+            anchors[line - 2, column] = _coordinate(row[key])
+            if np.isnan(anchors[line - 2, column]):
+                value = "is missing" if row[key] is None else repr(row[key])
+                expected = f"a number from -{LARGE:g} to {LARGE:g} [m]"
+                problems.append(Problem(place=f"{where}, {key}", value=value, expected=expected))
     if problems:
         raise InvalidStudy(f"{place} does not hold", problems)
     return anchors
+
+
+def _coordinate(text: str | None) -> float:
+    """Number of a cell, NaN where it is none that a study takes."""
+    try:
+        number = float(text or "")
+    except ValueError:
+        return np.nan
+    return number if abs(number) <= LARGE else np.nan
 
 
 def _counterbalance(table: CounterbalanceTable) -> Counterbalance:
@@ -219,8 +232,14 @@ def _bounds(table: StudyTable, cables: int, place: str) -> CableBounds:
     for lower, upper, unit in (("tension_min_n", "tension_max_n", "N"), ("length_min_m", "length_max_m", "m")):
         low, high = getattr(table.cables, lower), getattr(table.cables, upper)
         if low is not None and high is not None and not problems and np.any(np.array(low) > np.array(high)):
+            cable = int(np.argmax(np.broadcast_to(low, cables) > np.broadcast_to(high, cables)))
+            least, most = (float(np.broadcast_to(end, cables)[cable]) for end in (low, high))
             problems.append(
-                Problem(place=f"cables.{lower}", value=str(low), expected=f"at most {upper}, {high} [{unit}]")
+                Problem(
+                    place=f"cables.{lower}",
+                    value=f"{least:g} of cable {cable + 1}",
+                    expected=f"at most its {upper}, {most:g} [{unit}]",
+                )
             )
     if problems:
         raise InvalidStudy(f"{place} does not hold", problems)

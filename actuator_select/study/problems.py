@@ -62,6 +62,7 @@ def study_problems(error: ValidationError, content: Mapping[str, object]) -> lis
         for details in found:
             if details["loc"][:2] == ("payload", 0):
                 details["loc"] = ("payload", *details["loc"][2:])
+    found = _without_alternatives(found)
     places = [details["loc"] for details in found]
     return [
         _problem(details)
@@ -72,6 +73,25 @@ def study_problems(error: ValidationError, content: Mapping[str, object]) -> lis
             len(place) > len(details["loc"]) and place[: len(details["loc"])] == details["loc"] for place in places
         )
     ]
+
+
+def _without_alternatives(found: list[ErrorDetails]) -> list[ErrorDetails]:
+    """Of a value that may be a number or a list, the problems of what was written."""
+    kept = []
+    for details in found:
+        written = details["input"]
+        if details["type"] == "tuple_type" and any(_is_alternative(step) for step in details["loc"]):
+            continue  # a number was written
+        if details["type"] == "float_type" and isinstance(written, list | tuple):
+            continue  # a list was written
+        details["loc"] = tuple(step for step in details["loc"] if not _is_alternative(step))
+        kept.append(details)
+    return kept
+
+
+def _is_alternative(step: str | int) -> bool:
+    """Whether a step of a location names one of several types, as pydantic writes them, instead of a key."""
+    return isinstance(step, str) and ("[" in step or "-" in step)
 
 
 def _problem(details: ErrorDetails) -> Problem:

@@ -8,7 +8,7 @@ import numpy as np
 from actuator_select.errors import InvalidStudy, Problem
 from actuator_select.model.arrays import FloatArray
 from actuator_select.model.kinematics import LEAST_CABLE_LENGTH, rotation_matrix
-from actuator_select.model.robot import CableRobot
+from actuator_select.model.robot import CableRobot, Freedom
 from actuator_select.model.tension import TensionModel
 from actuator_select.study.schema import StudyTable
 
@@ -76,6 +76,9 @@ def refuse_what_cannot_be(study: "Study", place: str) -> None:
     """
     problems = [
         *_rope_without_rule(study),
+        *_home_off_the_grid(study),
+        *_out_of_the_plane(study),
+        *_turning_in_vain(study),
         *_same_cable_twice(study),
         *_nothing_to_hold(study),
         *_cables_without_length(study),
@@ -95,6 +98,78 @@ def _rope_without_rule(study: "Study") -> list[Problem]:
             expected='"wrench_feasible" or "force_only", which choose that tension; or one constant tension [N]',
         )
     ]
+
+
+def _home_off_the_grid(study: "Study") -> list[Problem]:
+    home = study.table.workspace.home_m
+    if home is None:
+        return []
+    slack = study.cell_size / 2.0 + LEAST_CABLE_LENGTH
+    outside = (np.array(home) < study.region[:, 0] - slack) | (np.array(home) > study.region[:, 1] + slack)
+    if not outside.any():
+        return []
+    box = [[float(low), float(high)] for low, high in study.region]
+    return [Problem(place="workspace.home_m", value=str(list(home)), expected=f"a position in the box, {box} [m]")]
+
+
+def _out_of_the_plane(study: "Study") -> list[Problem]:
+    """What a planar robot cannot have: cables, positions, loads or turns that leave its plane."""
+    robot = study.robot
+    if robot.freedom not in (Freedom.POINT_IN_PLANE, Freedom.PLANAR):
+        return []
+    normal, plane = robot.plane_normal, robot.plane.value
+    axis = "xyz"[normal]
+    expected = f"everything in one plane, {plane}, where degrees_of_freedom is {robot.freedom.value}"
+    problems = []
+    if study.region[normal, 1] > study.region[normal, 0]:
+        problems.append(Problem(place="workspace.box_m", value=f"extends along {axis}", expected=expected))
+    off = robot.frame_anchors[:, normal] - robot.platform_anchors[:, normal] - study.region[normal, 0]
+    ropes = [one.frame_anchors[:, normal] - one.platform_anchors[:, normal] for one in robot.counterbalances]
+    span = LEAST_CABLE_LENGTH * max(1.0, float(np.abs(robot.frame_anchors).max()))
+    problems += [
+        Problem(
+            place=f"robot.cable[{cable}]",
+            value=f"leaves the plane by {off[cable]:g} m along {axis}",
+            expected=expected,
+            remedy='other planes: plane = "xy" or "yz"; 3T or 3R3T for a robot in space',
+        )
+        for cable in np.flatnonzero(np.abs(off) > span)
+    ]
+    for index, rope in enumerate(ropes):
+        if np.abs(rope - study.region[normal, 0]).max() > span:
+            problems.append(
+                Problem(place=f"robot.counterbalance[{index}]", value="leaves the plane", expected=expected)
+            )
+    for index, load in enumerate(study.loads):
+        if load.force_lower[normal] or load.force_upper[normal]:
+            problems.append(Problem(place=f"payload[{index}].force_n", value=f"pushes along {axis}", expected=expected))
+    return problems
+
+
+def _turning_in_vain(study: "Study") -> list[Problem]:
+    """Turns about axes that the robot's degrees of freedom leave out."""
+    robot, place = study.robot, "workspace.orientations_rad"
+    axes = [axis for axis in range(3) if axis not in robot.turning_axes]
+    body = bool(robot.platform_anchors.any())
+    problems = []
+    if robot.freedom in (Freedom.POINT_IN_PLANE, Freedom.PLANAR) and study.orientations[:, axes].any() and body:
+        turned = [float(angle) for angle in study.orientations[study.orientations[:, axes].any(axis=1)][0]]
+        problems.append(
+            Problem(
+                place=place,
+                value=str(turned),
+                expected=f"turns about {'xyz'[robot.plane_normal]} only with degrees_of_freedom {robot.freedom.value}",
+            )
+        )
+    if study.motion.turns and not robot.turning_axes:
+        problems.append(
+            Problem(
+                place="motion.angular_speed_max_rad_per_s",
+                value=f"{study.motion.angular_speed:g}",
+                expected=f"0, where degrees_of_freedom is {robot.freedom.value}: a point does not turn [rad/s]",
+            )
+        )
+    return problems
 
 
 def _same_cable_twice(study: "Study") -> list[Problem]:

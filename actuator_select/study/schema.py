@@ -273,7 +273,7 @@ class CandidatesTable(Table):
 class MustServeTable(Table):
     """A box or a position that has to be served whatever the share of the rest."""
 
-    title: Text
+    title: str = ""
     box_m: tuple[Interval, Interval, Interval] | None = None
     position_m: Vector | None = None
 
