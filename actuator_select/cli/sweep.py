@@ -83,7 +83,7 @@ def command(
 
 
 def _picture(sweep: "Sweep") -> "Figure":
-    from actuator_select.report.robot_workspace import sweep_figure
+    from actuator_select.report.sweep_figures import sweep_figure
 
     return sweep_figure(sweep)
 
