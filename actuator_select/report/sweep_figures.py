@@ -82,7 +82,7 @@ def sweep_figure(sweep: Sweep, *, compact: bool = False) -> Figure:
         _map(figure, axes, along, varied[0], table, name)
         return figure
     axes.set_ylabel(name)
-    _lines(axes, along, table, labels)
+    _lines(axes, along, table, labels, compact=compact)
     _count_positions(axes, sweep)
     if varied and len(labels) <= MOST_LINES:
         room = LEGEND_WIDTH // (2 if compact else 1)
@@ -119,14 +119,14 @@ def _map(figure: Figure, axes: Axes, along: FloatArray, second: SweepAxis, table
     figure.colorbar(shaded, ax=axes, label=name)
 
 
-def _lines(axes: Axes, along: FloatArray, table: FloatArray, labels: Sequence[str]) -> None:
+def _lines(axes: Axes, along: FloatArray, table: FloatArray, labels: Sequence[str], *, compact: bool) -> None:
     shades = colormaps["viridis"](np.linspace(0.0, 0.9, max(len(labels), 2)))
     for column, label in enumerate(labels):
         colour = BLUE if len(labels) == 1 else shades[column]
         dash = DASHES[column % len(DASHES)]
         axes.plot(along, table[:, column], color=colour, linestyle=dash, marker="o", markersize=2.5, label=label)
     axes.grid(visible=True, color="#E2E2E2", linewidth=0.6)
-    axes.locator_params(axis="x", nbins=6)
+    axes.locator_params(axis="x", nbins=4 if compact else 7)
 
 
 def _count_positions(axes: Axes, sweep: Sweep) -> None:

@@ -195,7 +195,8 @@ def _dress(axes: Axes3D, study: Study, *, large: bool) -> None:
     axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), zlim=(low[2], high[2]))
     for axis, length in zip((axes.xaxis, axes.yaxis, axes.zaxis), high - low, strict=True):
         axis.get_major_locator().set_params(nbins=max(2, round(5 * length / float((high - low).max()))))
-    axes.set_box_aspect(high - low, zoom=0.9)
+    axes.set_box_aspect(high - low, zoom=0.9 if large else 0.84)
+    axes.patch.set_visible(False)  # it would hide the label of the axes to the left
     axes.view_init(elev=22.0, azim=-58.0)
 
 
