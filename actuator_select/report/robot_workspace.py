@@ -48,13 +48,13 @@ def workspace_map(result: WorkspaceResult) -> Figure:
     first, second = drawn
     grid = (points[first], points[second])
     edges = [cell_edges(result.study, axis) for axis in drawn]
-    width, height = (float(edge[-1] - edge[0]) for edge in edges)
+    anchors = result.study.robot.frame_anchors[:, drawn]
+    width, height = (float(np.ptp(np.append(edge, one))) for edge, one in zip(edges, anchors.T, strict=True))
     figure = new_figure(FULL_WIDTH, float(np.clip(FULL_WIDTH * height / width, 1.6, 7.0)) + 1.0)
     axes = figure.subplots()
     states = np.where(result.apart, APART, np.where(result.feasible, INSIDE, OUTSIDE)).reshape(grid)
     axes.pcolormesh(*edges, states.T, cmap=ListedColormap(FILLS), vmin=-0.5, vmax=2.5, rasterized=True)
     lines = _margin_lines(axes, result, edges, grid)
-    anchors = result.study.robot.frame_anchors[:, drawn]
     axes.scatter(anchors[:, 0], anchors[:, 1], marker="^", s=18, color="black", zorder=3, clip_on=False)
     axes.set_aspect("equal")
     axes.set_xlabel(f"{'xyz'[first]} [m]")

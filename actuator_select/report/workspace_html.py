@@ -83,7 +83,7 @@ def _images(dossier: WorkspaceDossier) -> dict[str, Any]:
     return {
         "robot": image(robot_figure(study), "png"),
         "map": image(workspace_map(dossier.own), "png"),
-        "margin": image(margin_slices(study, dossier.own.margin), "svg")
+        "margin": image(margin_slices(study, np.where(dossier.own.apart, np.nan, dossier.own.margin)), "svg")
         if np.isfinite(dossier.own.margin).any()
         else None,
         "tension": image(tension_slices(study, dossier.tension), "svg")
