@@ -14,7 +14,7 @@ from actuator_select.selection.dossier import ActuatorDetail
 from actuator_select.selection.simulation import UNITS
 from actuator_select.units import rpm
 
-ROOM = 1.12  # of the axes around limits and cloud
+ROOM = 1.3  # of the axes around limits and cloud
 
 
 @house_style
@@ -86,6 +86,7 @@ def _name_quadrants(axes: Axes, width: float, height: float) -> None:
             va="top" if y > 0 else "bottom",
             fontsize=7.5,
             color=GREY,
+            bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.85, "pad": 0.8},
         )
 
 

@@ -7,25 +7,30 @@ from datetime import datetime
 from importlib.metadata import version
 from typing import Any
 
+import numpy as np
 from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 from matplotlib.figure import Figure
 
 from actuator_select.database import Catalogue
 from actuator_select.model.ranking import State, Verdict
+from actuator_select.model.tension import TensionModel
 from actuator_select.report.drive_figures import simulation_figure, torque_speed_plane
 from actuator_select.report.margin_figures import margin_slices, tension_slices
 from actuator_select.report.robot_figure import robot_figure
-from actuator_select.report.robot_workspace import sweep_figure
 from actuator_select.report.style import data_uri
-from actuator_select.report.workspace_figures import share_bars, slice_panels, workspace_panels
+from actuator_select.report.sweep_figures import sweep_figure
+from actuator_select.report.workspace_figures import share_bars, slice_panels
+from actuator_select.report.workspace_panels import workspace_panels
 from actuator_select.selection import RankedActuator, Selection, wording
 from actuator_select.selection.dossier import Dossier, build_dossier
 from actuator_select.selection.sweeps import Sweep
 from actuator_select.selection.workspace_dossier import study_sweeps
+from actuator_select.study import Study
 
 SHORTLIST = 3
 PLANES = 3  # actuators whose torque-speed plane and slices are drawn
+MANY_SWEEPS = 4  # more are drawn half as wide, two beside each other
 LIBRARIES = ("numpy", "scipy", "sqlalchemy", "pandas", "matplotlib")
 
 
@@ -88,6 +93,8 @@ def render_report(selection: Selection, catalogue: Catalogue, details: ReportDet
             words=wording,
             shortlist=shortlist(selection),
             pushing=_pushing(selection),
+            apart=len(selection.study.positions) - selection.poses,
+            margin_note=margin_words(selection.study),
             State=State,
             Verdict=Verdict,
             images=_images(dossier),
@@ -108,13 +115,39 @@ def environment() -> Environment:
         lstrip_blocks=True,
     )
     templates.filters["figure"] = _figure_value
+    templates.filters["digits"] = _digits
+    templates.filters["plain_zero"] = _plain_zero
     templates.filters["unit"] = lambda unit: str(unit).replace("2", "²").replace("3", "³")
     return templates
 
 
 def sweep_pictures(sweeps: Sequence[tuple[str, str, Sweep]]) -> list[tuple[str, str, Markup]]:
     """Title, note and picture of every sweep."""
-    return [(title, note, image(sweep_figure(result), "svg")) for title, note, result in sweeps]
+    compact = len(sweeps) > MANY_SWEEPS
+    return [(title, note, image(sweep_figure(result, compact=compact), "svg")) for title, note, result in sweeps]
+
+
+def margin_words(study: Study) -> str:
+    """What a margin is, as the study's tension model and freedom have it."""
+    text = (
+        "Margin: the least distance, in newtons, from what is asked to the border of what tensions within their bounds "
+        "can exert; zero where it can just be held, negative where it cannot."
+    )
+    if study.tension_model is TensionModel.FORCE_ONLY or study.robot.degrees_of_freedom == len(study.robot.free_axes):
+        return f"{text} Forces only."
+    return (
+        f"{text} Moments are divided by the robot's characteristic length, {study.robot.characteristic_length:.4g} m."
+    )
+
+
+def _digits(value: float) -> str:
+    """Four significant digits, without an exponent in the range of forces."""
+    return f"{value:.0f}" if 1e4 <= abs(value) < 1e7 else f"{value:.4g}"  # noqa: PLR2004 - see above
+
+
+def _plain_zero(value: float) -> str:
+    """A length to a tenth of a millimetre; never a zero with a sign."""
+    return f"{round(value, 4) + 0.0:.4f}"
 
 
 def _pushing(selection: Selection) -> int:
@@ -131,6 +164,7 @@ def shortlist(selection: Selection) -> tuple[RankedActuator, ...]:
 def _images(dossier: Dossier) -> dict[str, Any]:
     study = dossier.selection.study
     leading = dossier.details[0]
+    apart = dossier.selection.result.spread(np.zeros(dossier.selection.poses), 1.0) > 0.0
     panels = [
         (f"{detail.actuator.name}: {wording.share(detail.actuator, dossier.selection.poses)}", detail.feasible)
         for detail in dossier.details
@@ -144,8 +178,8 @@ def _images(dossier: Dossier) -> dict[str, Any]:
         "robot": image(robot_figure(study), "png"),
         **_holding_images(dossier),
         "bars": image(share_bars(dossier.selection, [detail.actuator for detail in dossier.details]), "svg"),
-        "workspaces": image(workspace_panels(study, panels, leading.attainable), "png"),
-        "variants": image(workspace_panels(study, turned), "png") if turned else None,
+        "workspaces": image(workspace_panels(study, panels, leading.attainable, apart=apart), "png"),
+        "variants": image(workspace_panels(study, turned, apart=apart), "png") if turned else None,
         "slices": [
             (detail, image(slice_panels(study, detail), "svg")) for detail in dossier.details[:PLANES] if detail.checks
         ],

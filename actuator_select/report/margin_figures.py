@@ -1,21 +1,19 @@
 """Slices of a figure over the workspace: how far from its border every position is, and what tension it takes."""
 
 from collections.abc import Sequence
-from textwrap import fill
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
-from matplotlib.colors import ListedColormap, Normalize, TwoSlopeNorm
+from matplotlib.colors import Normalize, TwoSlopeNorm
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
-from actuator_select.model.arrays import BoolArray, FloatArray
-from actuator_select.report.style import BLUE, house_style, new_figure
-from actuator_select.report.workspace_figures import FULL_WIDTH, NEVER, TITLE_WIDTH, cell_edges, sliced
+from actuator_select.model.arrays import FloatArray
+from actuator_select.report.grids import APART, FULL_WIDTH, NEVER, cell_edges, paint, sliced
+from actuator_select.report.style import house_style, new_figure
 from actuator_select.study import Study
 
-MAPS_PER_ROW = 2
 HIGHEST_SHOWN = 98.0  # per cent of the values that colours tell apart; a singularity's neighbours are far beyond
 
 
@@ -35,7 +33,7 @@ def margin_slices(study: Study, margin: FloatArray) -> Figure:
     Figure
         Zero is where the colours change.
     """
-    finite = margin[np.isfinite(margin)]
+    finite = _shown(study, margin)
     reach = float(np.percentile(np.abs(finite), HIGHEST_SHOWN)) if len(finite) else 1.0
     norm = TwoSlopeNorm(vcenter=0.0, vmin=-max(reach, 1e-9), vmax=max(reach, 1e-9))
     bounded = np.where(np.isneginf(margin), -reach, np.where(np.isposinf(margin), reach, margin))
@@ -56,9 +54,9 @@ def tension_slices(study: Study, tension: FloatArray) -> Figure:
     Returns
     -------
     Figure
-        Grey where no tension would do.
+        Light grey where no tension would do, dark where positions are set apart.
     """
-    finite = tension[np.isfinite(tension)]
+    finite = _shown(study, tension)
     highest = float(np.percentile(finite, HIGHEST_SHOWN)) if len(finite) else 1.0
     norm = Normalize(vmin=float(finite.min()) if len(finite) else 0.0, vmax=max(highest, 1e-9))
     return _slices(study, tension, norm, "viridis", "minimax tension [N]")
@@ -66,10 +64,17 @@ def tension_slices(study: Study, tension: FloatArray) -> Figure:
 
 @house_style
 def value_slices(study: Study, values: FloatArray, label: str) -> Figure:
-    """Any figure, (P,), slice by slice; grey where it is infinite, white where it is NaN."""
-    finite = values[np.isfinite(values)]
+    """Any figure, (P,), slice by slice; light grey where it is infinite, dark where it is NaN."""
+    finite = _shown(study, values)
     low, high = (float(finite.min()), float(finite.max())) if len(finite) else (0.0, 1.0)
     return _slices(study, values, Normalize(vmin=low, vmax=max(high, low + 1e-9)), "viridis", label)
+
+
+def _shown(study: Study, values: FloatArray) -> FloatArray:
+    """Finite values in the slices that are drawn; colours that tell those apart suffice."""
+    axis, levels = sliced(study)
+    cut = np.take(values.reshape(study.table.workspace.points), levels, axis=axis)
+    return cut[np.isfinite(cut)]
 
 
 def _slices(study: Study, values: FloatArray, norm: Normalize, colours: str, label: str) -> Figure:
@@ -78,7 +83,7 @@ def _slices(study: Study, values: FloatArray, norm: Normalize, colours: str, lab
     grid = study.table.workspace.points
     cut = np.take(values.reshape(grid), levels, axis=axis)
     heights = np.unique(study.positions[:, axis])
-    edges = [cell_edges(study.region[other], grid[other]) for other in (first, second)]
+    edges = [cell_edges(study, other) for other in (first, second)]
     width, height = (float(edge[-1] - edge[0]) for edge in edges)
     tall = (FULL_WIDTH - 1.2) / len(levels) * height / width
     figure = new_figure(FULL_WIDTH, float(np.clip(tall, 1.0, 4.0)) + 1.0)
@@ -94,60 +99,16 @@ def _slices(study: Study, values: FloatArray, norm: Normalize, colours: str, lab
     bar = figure.colorbar(ScalarMappable(norm, colours), ax=list(panels), extend="both", shrink=0.9, pad=0.01)
     bar.set_label(label, fontsize=8)
     bar.ax.tick_params(labelsize=7)
-    if np.isinf(values).any():
-        figure.legend(handles=[Patch(color=NEVER, label="no tensions hold")], loc="outside lower center")
+    handles = [Patch(color=NEVER, label="no tensions hold")] if np.isinf(cut).any() else []
+    handles += [Patch(color=APART, label="set apart: too near to an anchor")] if np.isnan(cut).any() else []
+    if handles:
+        figure.legend(handles=handles, loc="outside lower center", ncols=2)
     return figure
 
 
 def _mesh(axes: Axes, edges: Sequence[FloatArray], plane: FloatArray, norm: Normalize, colours: str) -> None:
-    never = np.ma.masked_where(~np.isinf(plane), np.ones_like(plane))
-    axes.pcolormesh(*edges, never.T, cmap=ListedColormap([NEVER]), rasterized=True)
+    paint(axes, edges, np.isinf(plane), NEVER)
+    paint(axes, edges, np.isnan(plane), APART)
     axes.pcolormesh(*edges, np.ma.masked_invalid(plane).T, norm=norm, cmap=colours, rasterized=True)
     axes.set_aspect("equal")
     axes.tick_params(labelsize=7)
-
-
-@house_style
-def planar_maps(study: Study, maps: Sequence[tuple[str, BoolArray]]) -> Figure:
-    """Feasible positions of a planar grid, one map each, as figures 5, 7 and 8 of Qi et al. 2020, arXiv:2012.12387.
-
-    Parameters
-    ----------
-    study : Study
-        Its grid has a single position along one axis.
-    maps : sequence of (str, (P,) array of bool)
-        Title, and where the required wrenches can be held.
-
-    Returns
-    -------
-    Figure
-        Two maps in a row.
-    """
-    axis, _ = sliced(study)
-    first, second = (other for other in range(3) if other != axis)
-    grid = study.table.workspace.points
-    edges = [cell_edges(study.region[other], grid[other]) for other in (first, second)]
-    width, height = (float(edge[-1] - edge[0]) for edge in edges)
-    columns = min(MAPS_PER_ROW, len(maps))
-    rows = -(-len(maps) // columns)
-    tall = FULL_WIDTH / columns * float(np.clip(height / width, 0.15, 1.2)) + 0.55
-    figure = new_figure(FULL_WIDTH, rows * tall + 0.5)
-    panels = figure.subplots(rows, columns, squeeze=False, sharex=True, sharey=True)
-    for axes, (title, feasible) in zip(panels.ravel(), maps, strict=False):
-        shown = np.take(feasible.reshape(grid), 0, axis=axis).astype(np.float64)
-        axes.pcolormesh(*edges, shown.T, cmap=ListedColormap([NEVER, BLUE]), vmin=0.0, vmax=1.0, rasterized=True)
-        axes.set_title(fill(title, TITLE_WIDTH), fontsize=8.5)
-        axes.set_aspect("equal")
-        axes.tick_params(labelsize=7)
-    for axes in panels.ravel()[len(maps) :]:
-        axes.set_visible(False)
-    for axes in panels[-1]:
-        axes.set_xlabel(f"{'xyz'[first]} [m]")
-    for axes in panels[:, 0]:
-        axes.set_ylabel(f"{'xyz'[second]} [m]")
-    figure.legend(
-        handles=[Patch(color=BLUE, label="held"), Patch(color=NEVER, label="not held")],
-        loc="outside lower center",
-        ncols=2,
-    )
-    return figure

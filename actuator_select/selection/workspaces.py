@@ -255,8 +255,7 @@ def workspace_basis(result: WorkspaceResult) -> dict[str, str]:
         "asked": ASKED[result.kind],
     }
     if result.kind.rests_on_tensions:
-        items["loads"] = "; ".join(f"{load.title}, {load.body.mass:g} kg" for load in study.loads)
-        items["loads"] += f"; platform {study.robot.platform.mass:g} kg" if study.robot.platform.mass else ""
+        items["loads"] = said["load"]
         items["tensions"] = f"{result.tension_model.value}: {TENSIONS[result.tension_model]}"
     if result.kind in (WorkspaceKind.DYNAMIC, WorkspaceKind.TWIST):
         items["motion set"] = motion_words(study)
