@@ -2,9 +2,9 @@
 
 Under the pseudo-inverse it is the published one. Else it is the closed form [1] about the middle between the least
 tension and the minimax tension of the instant; a cable that would leave its bounds is set to the bound, and the others
-share what is left. Few instants near the border of what is feasible are not solved so (below 1 % of random poses of eight
-cables in space); there a linear program finds the tensions whose greatest distance from the middle is least, so that
-tensions may jump where one takes over from the other.
+share what is left. Few instants near the border of what is feasible are not solved so (below 1 % of random poses of
+eight cables in space); there a linear program finds the tensions whose greatest distance from the middle is least, so
+that tensions may jump where one takes over from the other.
 
 References
 ----------

@@ -92,8 +92,8 @@ def jointly_feasible(
     Returns
     -------
     (q,) array of bool or None
-        None where it would take too long. Exact without the centripetal term. With it, a safe answer: the term relieves a cable that is wound in, and is
-        left out there.
+        None where it would take too long. Exact without the centripetal term. With it, a safe answer: the term relieves
+        a cable that is wound in, and is left out there.
     """
     rows = robot.translation_rows if demand.tension_model is TensionModel.FORCE_ONLY else robot.wrench_rows
     cases = len(demand.lengths) // len(demand.positions)

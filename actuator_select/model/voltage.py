@@ -45,8 +45,8 @@ class VoltageDemand:
         Swing term at the cable's greatest speed: above 0 where a cable leads out of the plane of a planar robot, so
         that no velocity has its direction. [m/s²]
     directions : (P, k, 3) array or None
-        Cable directions along the axes on which the platform moves, where velocities are sampled and the centripetal term counts, or have the direction of the
-        acceleration; None where extremes suffice.
+        Cable directions along the axes on which the platform moves, where velocities are sampled and the centripetal
+        term counts, or have the direction of the acceleration; None where extremes suffice.
     velocities : (S, 3) array
         The samples. [m/s]
     """
