@@ -67,7 +67,7 @@ def command(
             progress=progress,
         )
     if plot is not None:
-        from actuator_select.report.robot_workspace import sweep_figure
+        from actuator_select.report.sweep_figures import sweep_figure
 
         draw(sweep_figure(sweep))
     if output_format == "json":

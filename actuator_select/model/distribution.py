@@ -2,7 +2,9 @@
 
 Under the pseudo-inverse it is the published one. Else it is the closed form [1] about the middle between the least
 tension and the minimax tension of the instant; a cable that would leave its bounds is set to the bound, and the others
-share what is left.
+share what is left. Few instants near the border of what is feasible are not solved so (below 1 % of random poses of
+eight cables in space); there a linear program finds the tensions whose greatest distance from the middle is least, so
+that tensions may jump where one takes over from the other.
 
 References
 ----------
@@ -24,6 +26,7 @@ from actuator_select.model.supports import Support, support_wrenches
 from actuator_select.model.tension import BALANCE_TOLERANCE, TensionModel, pseudo_inverse
 
 BOUND_TOLERANCE = 1e-9  # relative to the largest tension; a smaller excess is rounding
+PROGRAM_TOLERANCE = 1e-10  # the least that HiGHS allows, of tensions near 1
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -117,10 +120,11 @@ def _about_the_middle(
     least = holding.minimax_tension[:, 0]
     feasible = np.isfinite(least)
     highest = np.where(shared, np.minimum(upper, np.where(feasible, least, 0.0)[:, None]), upper)
+    middle = (lower + highest) / 2.0
     tension = np.full((instants, count), np.nan)
-    tension[feasible] = closed_form(
-        columns[feasible], wanted[feasible], lower, upper, (lower + highest[feasible]) / 2.0
-    )
+    tension[feasible] = closed_form(columns[feasible], wanted[feasible], lower, upper, middle[feasible])
+    for instant in np.flatnonzero(feasible & ~_is_solved(columns, wanted, lower, upper, tension)):
+        tension[instant] = _by_program(columns[instant], wanted[instant], lower, upper, middle[instant])
     rank = holding.rank if count == robot.cables else structure_rank(columns[:, :, : robot.cables])[0]
     return Distribution(
         geometry=geometry,
@@ -129,6 +133,45 @@ def _about_the_middle(
         rank_deficient=rank < rows,
         unbalanced=np.zeros(instants, dtype=np.bool_),
     )
+
+
+def _is_solved(
+    columns: FloatArray, wrench: FloatArray, lower: FloatArray, upper: FloatArray, tension: FloatArray
+) -> BoolArray:
+    """Whether tensions supply the wrench within their bounds, (S,)."""
+    largest = np.abs(tension).max(axis=1)
+    left = np.linalg.norm(wrench - np.einsum("snm,sm->sn", columns, tension), axis=1)
+    size = np.linalg.norm(wrench, axis=1) + largest
+    beyond = np.maximum(lower - tension, tension - upper).max(axis=1)
+    solved: BoolArray = (left <= BALANCE_TOLERANCE * size) & (beyond <= BOUND_TOLERANCE * largest)
+    return solved
+
+
+def _by_program(
+    columns: FloatArray, wrench: FloatArray, lower: FloatArray, upper: FloatArray, middle: FloatArray
+) -> FloatArray:
+    """Tensions of one instant whose greatest distance from `middle` is least, (M,); NaN where rounding forbids them."""
+    from scipy.optimize import linprog
+
+    count = len(middle)
+    scale = max(float(np.abs(middle).max()), float(np.linalg.norm(wrench)))
+    if scale == 0.0:
+        return np.zeros(count)
+    away = np.block([[np.eye(count), -np.ones((count, 1))], [-np.eye(count), -np.ones((count, 1))]])
+    solved = linprog(
+        np.append(np.zeros(count), 1.0),
+        A_ub=away,
+        b_ub=np.concatenate([middle, -middle]) / scale,
+        A_eq=np.hstack([columns, np.zeros((len(columns), 1))]),
+        b_eq=wrench / scale,
+        bounds=[
+            *zip(lower / scale, (None if np.isinf(one) else one / scale for one in upper), strict=True),
+            (0.0, None),
+        ],
+        method="highs",
+        options={"primal_feasibility_tolerance": PROGRAM_TOLERANCE, "dual_feasibility_tolerance": PROGRAM_TOLERANCE},
+    )
+    return np.full(count, np.nan) if solved.x is None else np.asarray(solved.x[:count] * scale)
 
 
 def closed_form(

@@ -157,6 +157,9 @@ def _crossing(driven: DrivenMove, history: DriveHistory, check: Check, cable: in
         here = driven.history(np.array([time]), np.array([phase]))
         return float(np.abs(here.of(check)[0, cable])) - limit
 
-    if excess(start) * excess(stop) > 0.0:  # both ends on one side but for rounding
+    before, after = excess(start), excess(stop)
+    if np.isnan(before) or np.isnan(after):  # on one side no tensions hold the platform, so that nothing is crossed
+        return float(start if np.isnan(after) else stop)
+    if before * after > 0.0:  # both ends on one side but for rounding
         return float(start)
     return float(brentq(excess, start, stop, xtol=TIME_TOLERANCE))

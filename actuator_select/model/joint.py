@@ -2,12 +2,13 @@
 
 The safe rule gives every cable one constant limit, the least that its own worst speed and acceleration leave. Over all
 motions at once more is possible, because the cables are not at their worst together. At a motion (v, a) a cable's limit
-is the least of two lines, torque and voltage; a hyperplane's condition is then that of the worst choice of lines among
-the cables that pull along its normal, and its worst motion is a closed form.
+is the least of three lines, of torque, of voltage and of its rope; a hyperplane's condition is then that of the worst
+choice of lines among the cables that pull along its normal, and its worst motion is a closed form.
 """
 
 from dataclasses import dataclass, replace
 from itertools import product
+from math import comb, prod
 
 import numpy as np
 
@@ -23,9 +24,11 @@ from actuator_select.model.robot import CableRobot
 from actuator_select.model.supports import support_wrenches
 from actuator_select.model.tension import TensionModel
 
-MOST_CABLES = 12  # 4096 choices of lines; more take too long
-MOST_POSES = 20_000  # poses in doubt
+MOST_CABLES = 12
+MOST_CHOICES = 1 << 13  # of a line for every cable
+MOST_WORK = 1 << 28  # (pose, hyperplane, choice) cells; about a minute
 CHOICES_AT_ONCE = 1 << 19  # (pose, choice, cable) cells in one chunk
+LINES = 3  # of torque, voltage and rope
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -70,7 +73,7 @@ def can_be_tested(robot: CableRobot, motion: MotionSet, model: TensionModel) -> 
 
 def jointly_feasible(
     robot: CableRobot, demand: Demand, wrenches: Wrenches, lines: DriveLines, poses: IntArray
-) -> BoolArray:
+) -> BoolArray | None:
     """Tell the poses at which one drive meets all limits jointly for every motion.
 
     Parameters
@@ -88,9 +91,9 @@ def jointly_feasible(
 
     Returns
     -------
-    (q,) array of bool
-        Exact without the centripetal term. With it, a safe answer: the term relieves a cable that is wound in, and is
-        left out there.
+    (q,) array of bool or None
+        None where it would take too long. Exact without the centripetal term. With it, a safe answer: the term relieves
+        a cable that is wound in, and is left out there.
     """
     rows = robot.translation_rows if demand.tension_model is TensionModel.FORCE_ONLY else robot.wrench_rows
     cases = len(demand.lengths) // len(demand.positions)
@@ -119,7 +122,11 @@ def jointly_feasible(
         lower=np.concatenate([robot.bounds.tension_min, support.lower]),
         upper=support.upper,
     )
-    return demand.attainable[poses] & problem.box_is_open(demand.acceleration_out[poses]) & problem.holds()
+    choices = problem.choices()
+    normals = comb(problem.columns.shape[2], max(0, len(rows) - 1))
+    if not len(choices) or len(poses) * normals * len(choices) > MOST_WORK:
+        return None
+    return demand.attainable[poses] & problem.box_is_open(demand.acceleration_out[poses]) & problem.holds(choices)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -160,7 +167,7 @@ class _Problem:
         )
         return np.asarray((up & down).all(axis=1), dtype=np.bool_)
 
-    def holds(self) -> BoolArray:
+    def holds(self, choices: IntArray) -> BoolArray:
         """Whether every hyperplane leaves room for every motion, (q,)."""
         result = np.ones(len(self.columns), dtype=np.bool_)
         rank, left = structure_rank(self.columns)
@@ -168,15 +175,15 @@ class _Problem:
             at = np.flatnonzero(rank == value)
             # What lies outside the range has been seen to with the minimax tension.
             base = left[at][:, :, :value]
-            result[at] = self._holds(at, np.einsum("qnm,qnr->qrm", self.columns[at], base), base)
+            result[at] = self._holds(at, np.einsum("qnm,qnr->qrm", self.columns[at], base), base, choices)
         return result
 
-    def _holds(self, at: IntArray, columns: FloatArray, base: FloatArray) -> BoolArray:
+    def _holds(self, at: IntArray, columns: FloatArray, base: FloatArray, choices: IntArray) -> BoolArray:
         result = np.ones(len(at), dtype=np.bool_)
         if columns.shape[1] == 0:
             return result
         cables = self.robot.cables
-        torque, constant = self._torque()[at], self._constant_limits()[at]
+        constant = self._constant_limits()[at]
         for normal, _ in facet_normals(columns):
             pulls = in_hyperplane(np.einsum("qr,qrm->qm", normal, columns), columns)
             whole = np.einsum("qnr,qr->qn", base, normal)
@@ -189,54 +196,67 @@ class _Problem:
                 needed = needed - _times(with_it[:, cables:], self.upper)
                 # Constant limits leave no more room than the least of all motions does: most normals need no more.
                 asked = extent(lever, self._acceleration, self.motion.acceleration_shape)
-                open_ = np.flatnonzero(result & (needed > _times(with_it[:, :cables], constant) - asked))
-                if not len(open_):
+                doubtful = np.flatnonzero(result & (needed > _times(with_it[:, :cables], constant) - asked))
+                if not len(doubtful):
                     continue
-                pulling, moved = with_it[open_, :cables], sign * lever[open_]
-                room = self._room(at[open_], pulling, moved, torque[open_])
-                size = np.abs(middle[open_]) + external[open_] + np.abs(room) + asked[open_]
-                result[open_] = needed[open_] <= room + WRENCH_TOLERANCE * size
+                room = self._room(at[doubtful], with_it[doubtful, :cables], sign * lever[doubtful], choices)
+                size = np.abs(middle[doubtful]) + external[doubtful] + np.abs(room) + asked[doubtful]
+                result[doubtful] = needed[doubtful] <= room + WRENCH_TOLERANCE * size
         return result
 
     def _constant_limits(self) -> FloatArray:
         """Least that every cable's own worst speed and acceleration leave of its limits, (q, m)."""
         acceleration, speed = self._along()
-        lines = self.lines
-        by_torque = self._torque() - lines.torque_mass * acceleration
-        return np.minimum(by_torque, lines.voltage - lines.voltage_mass * acceleration - lines.voltage_damping * speed)
+        mass, damping = self._masses()[:, None, None], self._dampings()[:, None, None]
+        least: FloatArray = (self._forces()[:, None] - mass * acceleration - damping * speed).min(axis=0)
+        return least
 
-    def _torque(self) -> FloatArray:
-        """Torque line's force at rest, lowered where the rope is weaker than the drive, (q, m)."""
-        acceleration, _ = self._along()
-        rope = self.robot.bounds.tension_max - self.lines.torque_mass * acceleration
-        return np.minimum(self.lines.torque, rope)
+    def choices(self) -> IntArray:
+        """Every choice of a line per cable among those that are the least at some motion of some pose, (c, m)."""
+        acceleration, speed = self._along()
+        mass, damping = self._masses()[:, None, None], self._dampings()[:, None, None]
+        falls = mass * acceleration + damping * speed  # (lines, q, m)
+        force = self._forces()[:, None]
+        least, most = force - falls, force + falls
+        needed = []
+        for line in range(LINES):
+            above = np.zeros_like(acceleration, dtype=np.bool_)  # where another line is lower at every motion
+            for other in range(LINES):
+                above |= least[line] > most[other] if other >= line else least[line] >= most[other]
+            needed.append(~above.all(axis=0))
+        used = [np.flatnonzero(cable) for cable in np.stack(needed, axis=1)]
+        if prod(len(lines) for lines in used) > MOST_CHOICES:
+            return np.empty((0, self.robot.cables), dtype=np.int64)
+        return np.array(list(product(*used)), dtype=np.int64)
 
-    def _room(self, at: IntArray, pulls: FloatArray, lever: FloatArray, torque: FloatArray) -> FloatArray:
+    def _forces(self) -> FloatArray:
+        """Force of every line at rest, (lines, m). [N]"""
+        rope = self.robot.bounds.tension_max
+        return np.stack([np.full_like(rope, self.lines.torque), np.full_like(rope, self.lines.voltage), rope])
+
+    def _masses(self) -> FloatArray:
+        return np.array([self.lines.torque_mass, self.lines.voltage_mass, 0.0])
+
+    def _dampings(self) -> FloatArray:
+        return np.array([0.0, self.lines.voltage_damping, 0.0])
+
+    def _room(self, at: IntArray, pulls: FloatArray, lever: FloatArray, choices: IntArray) -> FloatArray:
         """What the cables can pull along the normal less what motion asks, least over lines and motions, (q,)."""
-        lines, cables = self.lines, pulls.shape[1]
-        if np.isinf(lines.voltage):
-            choices = np.zeros((1, cables))
-        elif np.isinf(lines.torque) and np.isinf(torque).all():
-            choices = np.ones((1, cables))
-        else:
-            choices = np.array(list(product((0.0, 1.0), repeat=cables)))
         room = np.full(len(pulls), np.inf)
-        step = max(1, CHOICES_AT_ONCE // (len(choices) * cables))
+        step = max(1, CHOICES_AT_ONCE // choices.size)
         for start in range(0, len(pulls), step):
             part = slice(start, start + step)
-            room[part] = self._least_room(pulls[part], self.directions[at[part]], lever[part], torque[part], choices)
+            room[part] = self._least_room(pulls[part], self.directions[at[part]], lever[part], choices)
         return room
 
     def _least_room(
-        self, pulls: FloatArray, directions: FloatArray, lever: FloatArray, torque: FloatArray, choices: FloatArray
+        self, pulls: FloatArray, directions: FloatArray, lever: FloatArray, choices: IntArray
     ) -> FloatArray:
-        lines, motion = self.lines, self.motion
-        by_voltage = pulls[:, None] * choices  # (q, c, m)
-        by_torque = pulls[:, None] - by_voltage
-        force = _times(by_torque, torque[:, None]) + _times(by_voltage, np.full_like(torque, lines.voltage)[:, None])
-        inertia = lines.torque_mass * by_torque + lines.voltage_mass * by_voltage
+        motion = self.motion
+        force = _times(pulls[:, None], self._forces()[choices, np.arange(choices.shape[1])])
+        inertia = pulls[:, None] * self._masses()[choices]  # (q, c, m)
         accelerating = lever[:, None] + np.einsum("qcm,qma->qca", inertia, directions)
-        cruising = lines.voltage_damping * np.einsum("qcm,qma->qca", by_voltage, directions)
+        cruising = np.einsum("qcm,qma->qca", pulls[:, None] * self._dampings()[choices], directions)
         if motion.kind is MotionKind.STRAIGHT:
             fast, hard = motion.speed * cruising, self._acceleration[0] * accelerating
             asked = np.maximum(np.linalg.norm(fast + hard, axis=-1), np.linalg.norm(fast - hard, axis=-1))
@@ -262,7 +282,7 @@ def exact_positions(
     safe: BoolArray,
     possible: BoolArray,
 ) -> BoolArray | None:
-    """Positions at which one drive meets all limits jointly, (P,); None where too many are in doubt.
+    """Positions at which one drive meets all limits jointly, (P,); None where that would take too long.
 
     Parameters
     ----------
@@ -275,11 +295,11 @@ def exact_positions(
     """
     cases = len(demand.lengths) // len(demand.positions)
     doubtful = np.flatnonzero(possible & ~safe)
-    if len(doubtful) * cases > MOST_POSES:
-        return None
     result = safe.copy()
     if len(doubtful):
         poses = (doubtful[:, None] * cases + np.arange(cases)).ravel()
         holds = jointly_feasible(robot, demand, wrenches, lines, poses)
+        if holds is None:
+            return None
         result[doubtful] = holds.reshape(len(doubtful), cases).all(axis=1)
     return result

@@ -99,7 +99,7 @@ def cable_geometry(robot: CableRobot, positions: FloatArray, orientations: Float
     Returns
     -------
     CableGeometry
-        A cable of zero length has the direction 0, so that it carries nothing.
+        A cable shorter than `LEAST_CABLE_LENGTH` has length and direction 0, so that it carries nothing.
 
     References
     ----------
@@ -116,6 +116,7 @@ def segment_geometry(
     arms = np.broadcast_to(arms, (len(positions), len(frame_anchors), 3))
     cables = frame_anchors - positions[:, None, :] - arms
     lengths = np.linalg.norm(cables, axis=-1)
+    lengths[lengths < LEAST_CABLE_LENGTH] = 0.0
     directions = np.divide(cables, lengths[..., None], out=np.zeros_like(cables), where=lengths[..., None] > 0.0)
     moments = np.cross(arms, directions)
     structure_matrix = np.concatenate([directions, moments], axis=-1).swapaxes(-1, -2)

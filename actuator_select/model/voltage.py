@@ -46,8 +46,7 @@ class VoltageDemand:
         that no velocity has its direction. [m/s²]
     directions : (P, k, 3) array or None
         Cable directions along the axes on which the platform moves, where velocities are sampled and the centripetal
-        term counts, or have the direction of the
-        acceleration; None where extremes suffice.
+        term counts, or have the direction of the acceleration; None where extremes suffice.
     velocities : (S, 3) array
         The samples. [m/s]
     """

@@ -115,6 +115,7 @@ def simulation_record(run: Simulation) -> dict[str, Any]:
         "negative_tension_cables": run.pushing,
         "rank_deficient": bool(run.history.rank_deficient.any()),
         "unbalanced_wrench": bool(run.history.unbalanced.any()),
+        "infeasible": bool(run.history.infeasible.any()),
     }
 
 

@@ -311,8 +311,8 @@ def _reasons(
     equations = len(balanced_rows(robot, model))
     if robot.cables < equations:
         reasons.append(
-            f"{robot.cables} cable{'s' if robot.cables > 1 else ''} cannot balance {equations} equations, but for loads "
-            f"that happen to lie in the "
+            f"{robot.cables} cable{'s' if robot.cables > 1 else ''} cannot balance {equations} equations, but for "
+            f"loads that happen to lie in the "
             f"range of the structure matrix: add cables, or state fewer degrees of freedom."
         )
     if verdicts.short_of_rank[judged].all():

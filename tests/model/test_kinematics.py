@@ -94,3 +94,14 @@ def test_a_point_mass_has_three_degrees_of_freedom_and_a_body_six() -> None:
     anchors = np.array([[0.0, 0.0, 2.0], [3.0, 0.0, 2.0], [3.0, 2.0, 2.0], [0.0, 2.0, 2.0]])
     assert CableRobot(frame_anchors=anchors, platform_anchors=np.zeros((4, 3))).degrees_of_freedom == 3
     assert cpr8(FRAME, CARRIER).degrees_of_freedom == 6
+
+
+def test_a_cable_whose_length_is_rounding_has_neither_length_nor_direction() -> None:
+    frame = np.array([[0.3, -0.7, 1.9], [2.0, 1.0, 3.0]])
+    placed = np.array([[0.1, 0.2, -0.7], [0.0, 0.0, 0.1]])
+    robot = CableRobot(frame_anchors=frame, platform_anchors=placed)
+    off = np.array([[1e-16, 0.0, 0.0], [0.0, 1e-12, 0.0]])
+    geometry = cable_geometry(robot, frame[0] - placed[0] + off, np.zeros(3))
+    assert (geometry.lengths[:, 0] == 0.0).all()
+    assert (geometry.directions[:, 0] == 0.0).all()
+    assert (geometry.lengths[:, 1] > 1.0).all()
