@@ -99,6 +99,7 @@ def cable_geometry(robot: CableRobot, positions: FloatArray, orientations: Float
     -------
     CableGeometry
         A cable shorter than `LEAST_CABLE_LENGTH` has length and direction 0, so that it carries nothing.
+
     References
     ----------
     Eqs. 1-17 and 19 in Filipović & Kevac 2018, doi:10.22190/FUACR1802071F.
