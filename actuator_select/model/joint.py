@@ -26,7 +26,7 @@ from actuator_select.model.tension import TensionModel
 
 MOST_CABLES = 12
 MOST_CHOICES = 1 << 13  # of a line for every cable
-MOST_WORK = 1 << 28  # (pose, hyperplane, choice) cells; about a minute
+MOST_WORK = 1 << 26  # (pose, hyperplane, choice) cells, most of which constant limits settle; some seconds
 CHOICES_AT_ONCE = 1 << 19  # (pose, choice, cable) cells in one chunk
 LINES = 3  # of torque, voltage and rope
 

@@ -109,7 +109,6 @@ def simulation_record(run: Simulation) -> dict[str, Any]:
             }
             for one in run.exceedances
         ],
-        "can_be_held": not run.unheld,
         "not_held": [{"from_s": start, "to_s": stop} for start, stop in run.unheld],
         "not_evaluated": {check.value: list(missing) for check, missing in run.missing.items()},
         "negative_tension_cables": run.pushing,
