@@ -81,6 +81,12 @@ def template_text(name: str, template: str = DEFAULT_TEMPLATE, options: Template
 _BOX_NOTE = "Of the room that the frame leaves, a part that this robot can hold."
 
 
+def _sideways(draft: Draft, force: float) -> str:
+    """A force [N] along each horizontal axis on which the robot moves, as a TOML list."""
+    moves = np.ptp(draft.room, axis=1)[:2] > 0.0
+    return f"[{', '.join([toml_number(force if one else 0.0) for one in moves] + ['0.0'])}]"
+
+
 def _attempts(
     own: Template, given: TemplateOptions, draft: Draft, mass: float
 ) -> Iterator[tuple[dict[str, str], FloatArray]]:
@@ -100,7 +106,7 @@ def _attempts(
             "TENSION_NOTE": note,
             "MASS": toml_number(mass),
             "EMPTY": toml_number(mass / 3.0),
-            "FORCE": toml_number(0.02 * mass * GRAVITY),
+            "REACH": _sideways(draft, 0.02 * mass * GRAVITY),
             "SPEED": toml_number(speed),
             "HALF_SPEED": toml_number(speed / 2.0),
             "RAMP": toml_number(ramp),

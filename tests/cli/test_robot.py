@@ -57,6 +57,7 @@ def test_json_stands_alone_and_has_units_in_its_keys(run: Run) -> None:
         "platform_anchor_m",
         "shortest_m",
         "longest_m",
+        "unstretched_m",
         "tension_max_n",
         "speed_max_m_per_s",
         "largest_force_n",

@@ -122,7 +122,10 @@ def test_a_speed_limit_is_needed_where_speeds_decide() -> None:
         ({"cables__length_max_m": 0.5}, "longer than cables.length_max_m"),
         ({"cables__tension_max_n": 10.0}, "tension_max_n is too small"),
         ({"motion__speed_max_m_per_s": 90.0}, "the motion set asks for too much"),
-        ({"workspace__box_m": [[-2.5, 2.5], [0.0, 0.0], [4.0, 5.0]]}, "outside of what they span"),
+        (
+            {"workspace__box_m": [[-2.5, 2.5], [0.0, 0.0], [4.0, 5.0]], "workspace__home_m": [0.0, 0.0, 4.5]},
+            "outside of what",
+        ),
         ({"cables__length_min_m": 20.0}, "nearer to an anchor"),
     ],
 )
