@@ -80,6 +80,6 @@ def _at(demand: Demand, poses: IntArray) -> Demand:
     by_pose = {
         name: getattr(demand, name)[poses]
         for name in Demand.__slots__
-        if name not in {"orientations", "motion", "tension_model", "tensions", "tension_min"}
+        if isinstance(getattr(demand, name), np.ndarray) and name not in {"orientations", "tension_min"}
     }
     return replace(demand, tensions=LinearTensions(**tensions), **by_pose)

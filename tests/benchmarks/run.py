@@ -3,8 +3,6 @@
 import statistics
 import subprocess
 import sys
-import time
-from collections.abc import Callable
 from resource import RUSAGE_SELF, getrusage
 
 import numpy as np
@@ -21,21 +19,13 @@ from actuator_select.units import kg_m2, rad_per_s
 from tests.benchmarks import plain_numpy
 from tests.benchmarks.cases import large_demand, synthetic_actuators
 from tests.benchmarks.paper_loops import passes
+from tests.benchmarks.tensions import against_linear_programs, over_poses
+from tests.benchmarks.timing import best_of
 from tests.reference.scalar_cpr8 import TABLE_1, Case, pose_grid
 
 SCALAR_SLICE = 12  # poses that the scalar loops are timed on; scaled to all
 PLAIN_SLICE = 40  # actuators that the plain evaluation is timed on; scaled to all
 BAND = 1e-12  # relative distance from a limit within which verdicts may differ
-
-
-def best_of(repeats: int, work: Callable[[], object]) -> float:
-    """Shortest time of several runs. [s]"""
-    times = []
-    for _ in range(repeats):
-        start = time.perf_counter()
-        work()
-        times.append(time.perf_counter() - start)
-    return min(times)
 
 
 def table_1() -> ActuatorSet:
@@ -133,3 +123,5 @@ if __name__ == "__main__":
     start_up()
     against_the_scalar_loops()
     against_plain_numpy()
+    against_linear_programs()
+    over_poses()

@@ -15,7 +15,7 @@ from tests.benchmarks.linear_programs import (
     normals_by_determinants,
     normals_by_svd,
 )
-from tests.benchmarks.run import best_of
+from tests.benchmarks.timing import best_of
 
 CABLES, TENSION_MIN = 8, 1.0  # [N]
 MASS, GRAVITY, ACCELERATION = 2.0, 9.81, 1.82  # [kg], [m/s²], [m/s²] along each axis
