@@ -1,0 +1,44 @@
+"""Moves that no drive could make, and places that no drive could serve, are said to be so."""
+
+from actuator_select import Catalogue, load_study, rank, simulate
+from actuator_select.selection.records import selection_record, simulation_record
+from actuator_select.selection.wording import summary, unheld_words
+from actuator_select.study import parse_study, template_text
+
+HALL = template_text("hall", "suspended-8")
+
+
+def test_a_move_out_of_the_hall_is_not_held_from_where_it_leaves(catalogue: Catalogue) -> None:
+    study = parse_study(HALL, place="hall.toml")
+    run = simulate(study, catalogue, "Actuator 1", start=(0.0, 0.0, 1.0), stop=(20.0, 0.0, 9.0))
+    assert len(run.unheld) == 1
+    start, stop = run.unheld[0]
+    assert 0.0 < start < stop
+    assert stop == run.duration
+    record = simulation_record(run)
+    assert record["infeasible"] is True
+    assert record["not_held"] == [{"from_s": start, "to_s": stop}]
+    (sentence,) = unheld_words(run)
+    assert sentence.startswith("the move cannot be made")
+
+
+def test_a_move_inside_is_held(catalogue: Catalogue) -> None:
+    study = parse_study(HALL, place="hall.toml")
+    run = simulate(study, catalogue, "Actuator 1", start=(0.0, 0.0, 1.0), stop=(2.0, 0.0, 1.0))
+    assert run.unheld == ()
+    assert simulation_record(run)["not_held"] == []
+
+
+def test_a_place_that_no_drive_could_serve_is_the_robots_fault(catalogue: Catalogue) -> None:
+    far = {"requirement.must_serve": [{"position_m": [30.0, 0.0, 1.0]}], "requirement.feasible_percent": 0.0}
+    selection = rank(parse_study(HALL, place="hall.toml", overrides=far), catalogue)
+    assert selection.unattainable_places == ("place 1",)
+    assert selection.robot_falls_short
+    assert "No drive could serve place 1, as required: the robot has to change" in summary(selection)[0]
+    assert selection_record(selection)["unattainable_places"] == ["place 1"]
+
+
+def test_the_share_of_a_robot_that_holds_enough_is_not_its_fault(catalogue: Catalogue) -> None:
+    selection = rank(load_study("cpr8"), catalogue)
+    assert not selection.robot_falls_short
+    assert selection.unattainable_places == ()
