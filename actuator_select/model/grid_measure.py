@@ -3,7 +3,6 @@
 from dataclasses import dataclass
 
 import numpy as np
-from scipy import ndimage
 
 from actuator_select.model.arrays import BoolArray, FloatArray
 
@@ -62,6 +61,8 @@ def measure_of(
         return None
     cell = float(np.prod(cell_size[np.array(points) > 1]))
     if midpoints:
+        from scipy import ndimage
+
         block = np.ones((3,) * grid.ndim, dtype=np.bool_)
         inner = ndimage.binary_erosion(grid, block, border_value=1)
         outer = ndimage.binary_dilation(grid, block)
@@ -95,6 +96,8 @@ def connected_positions(feasible: BoolArray, points: tuple[int, int, int], home:
     """
     if not feasible[home]:
         return 0
+    from scipy import ndimage
+
     labels, _ = ndimage.label(feasible.reshape(points))
     flat = np.asarray(labels).reshape(-1)
     return int((flat == flat[home]).sum())
