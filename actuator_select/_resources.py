@@ -66,6 +66,19 @@ def writable_cache_dir(name: str) -> Path:
         return Path(tempfile.mkdtemp(prefix="actuator-select-"))
 
 
+def refuse_no_folder(path: Path) -> None:
+    """Refuse, before any work, a file whose folder is missing.
+
+    Raises
+    ------
+    OutputNotWritable
+        If there is no such folder, or the path is a folder itself.
+    """
+    if path.is_dir() or not path.parent.is_dir():
+        reason = "it is a folder" if path.is_dir() else os.strerror(errno.ENOENT)
+        raise OutputNotWritable(_cannot_write(path, OSError(errno.EISDIR, reason)))
+
+
 def replace_atomically(path: Path, content: str | bytes) -> None:
     """Write a file whole or not at all.
 

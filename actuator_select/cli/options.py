@@ -135,7 +135,7 @@ def plot_writer(plot: Path | None) -> Callable[["Figure"], None]:
     """
     if plot is None:
         return lambda _: None
-    from actuator_select._resources import replace_atomically
+    from actuator_select._resources import refuse_no_folder, replace_atomically
     from actuator_select.report.style import IMAGE_FORMATS, image_bytes
 
     suffix = plot.suffix.lower().removeprefix(".")
@@ -143,6 +143,8 @@ def plot_writer(plot: Path | None) -> Callable[["Figure"], None]:
         raise click.BadParameter(
             f"{plot}: expected a name that ends in {', '.join(IMAGE_FORMATS)}", param_hint="--plot"
         )
+
+    refuse_no_folder(plot)
 
     def write(figure: "Figure") -> None:
         replace_atomically(plot, image_bytes(figure, suffix))

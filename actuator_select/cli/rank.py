@@ -74,7 +74,15 @@ def command(
 
 def print_ranking(selection: "Selection", *, only_meeting: bool) -> None:
     """Print the answer in three lines, what the percentage is of, the table, and the warnings."""
-    from actuator_select.selection.wording import actuator_count, check_cell, heading, missing_notes, share, summary
+    from actuator_select.selection.wording import (
+        actuator_count,
+        check_cell,
+        heading,
+        limited_by,
+        missing_notes,
+        share,
+        summary,
+    )
 
     for line in [*summary(selection), "", *heading(selection)]:
         click.echo(line)
@@ -83,7 +91,6 @@ def print_ranking(selection: "Selection", *, only_meeting: bool) -> None:
     header = ["", "actuator", "verdict", "feasible", *(check.value for check in checks), "limited by"]
     rows = []
     for place, actuator in enumerate(actuators, start=1):
-        limiting = actuator.limiting_check
         rows.append(
             [
                 str(place),
@@ -91,7 +98,7 @@ def print_ranking(selection: "Selection", *, only_meeting: bool) -> None:
                 actuator.verdict.value,
                 share(actuator, selection.poses),
                 *(check_cell(actuator.checks[check], selection.poses) for check in checks),
-                limiting.value if limiting and actuator.feasible_poses < selection.poses else "–",
+                limited_by(actuator, selection.poses, selection.attainable_poses),
             ]
         )
     if rows:

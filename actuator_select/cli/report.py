@@ -49,7 +49,7 @@ def command(
     Example:
         actuator-select report cpr8 --output cpr8.html --project "Camera robot" --author "M. Muster"
     """
-    from actuator_select._resources import replace_atomically
+    from actuator_select._resources import refuse_no_folder, replace_atomically
     from actuator_select.database import open_catalogue
     from actuator_select.report import ReportDetails, render_report, render_workspace_report
     from actuator_select.selection import rank
@@ -57,6 +57,7 @@ def command(
 
     loaded = load_study(study, parse_overrides(overrides), limit=not no_limit)
     path = output if output is not None else Path(f"{Path(study).stem}.html")
+    refuse_no_folder(path)
     details = ReportDetails(
         generated_at=datetime.now().astimezone(),
         project=project,

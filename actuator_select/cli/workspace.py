@@ -71,7 +71,7 @@ def command(
 
     Every load of the study has to hold. Area or volume is an estimate: positions times the cell of the grid, with the
     interval from the cells that are surely inside, as far as the grid tells, to these and those on the border. CSV
-    gives the verdict, the margin and the minimax tension of every position.
+    gives the verdict, the margin and the minimax tension of every position (empty where none within the bounds holds).
 
     That nothing is feasible is a result, with its reasons; the exit status is 0.
     """

@@ -15,6 +15,7 @@ from actuator_select.model.arrays import BoolArray, FloatArray, IntArray
 from actuator_select.model.components import ActuatorSet
 from actuator_select.model.distribution import distribute
 from actuator_select.model.dynamics import RequiredWrench
+from actuator_select.model.kinematics import LENGTH_TOLERANCE
 from actuator_select.model.robot import CableRobot
 from actuator_select.model.tension import TensionModel
 
@@ -141,7 +142,8 @@ class DriveHistory:
         At the motor's terminals. [V]
     rank_deficient, unbalanced, infeasible : (S,) array of bool
         Where the structure matrix is short of rank, where the tensions do not balance the required wrench, and where
-        no tensions within their bounds would; there tension, torque and voltage are NaN.
+        no tensions within their bounds would, or a cable is beyond its greatest length; there tension, torque and
+        voltage are NaN.
     """
 
     times: FloatArray
@@ -239,7 +241,10 @@ class DrivenMove:
         shared = distribute(
             self.robot, self.tension_model, move.start + path[:, None] * line, move.orientation, wrenches
         )
-        geometry, tension = shared.geometry, shared.tension
+        geometry = shared.geometry
+        longest = self.robot.bounds.length_max * (1.0 + LENGTH_TOLERANCE)
+        infeasible = np.isinf(shared.minimax_tension) | (geometry.lengths > longest).any(axis=1)
+        tension = np.where(infeasible[:, None], np.nan, shared.tension)
         along = geometry.directions @ line  # cosine between cable and line
         cable_speed = along * speed[:, None]
         cable_acceleration = along * acceleration[:, None]
@@ -257,7 +262,7 @@ class DrivenMove:
             torque=torque,
             rank_deficient=shared.rank_deficient,
             unbalanced=shared.unbalanced,
-            infeasible=np.isinf(shared.minimax_tension),
+            infeasible=infeasible,
             voltage=shaft.inertia_gain * shaft_acceleration
             + shaft.damping_gain * shaft_speed
             + shaft.load_gain * torque,  # eq. 21

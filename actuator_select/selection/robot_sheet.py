@@ -1,6 +1,6 @@
 """What frame and ropes of a robot have to be: forces on the frame, rope lengths, and what to mind."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -10,7 +10,7 @@ from actuator_select.model.distribution import distribute
 from actuator_select.model.redundancy_one import unstretched_lengths
 from actuator_select.model.robot import CableRobot, Freedom
 from actuator_select.selection.cautions import Warned, demand_warnings
-from actuator_select.selection.places import study_demand
+from actuator_select.selection.places import counted_positions, study_demand
 from actuator_select.study import Study
 
 SAME_POINT = 1e-3  # m; frame anchors nearer to each other than this are one point of the frame
@@ -172,6 +172,8 @@ def robot_sheet(study: Study, progress: Progress | None = None) -> RobotSheet:
         Forces are those of the study's tension distribution at rest, external loads in the middle of their range, over
         the poses that can be held so.
     """
+    # Positions that are set apart belong to no total.
+    study = replace(study, positions=study.positions[counted_positions(study)])
     robot, demand = study.robot, study_demand(study, progress=progress)
     groups = _same_points(robot.frame_anchors)
     single, joint = _Largest([[cable] for cable in range(robot.cables)]), _Largest(groups)

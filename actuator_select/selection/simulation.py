@@ -23,6 +23,7 @@ from actuator_select.model.trajectory import (
 )
 from actuator_select.selection.candidates import Candidates, find_actuator
 from actuator_select.study import Study
+from actuator_select.study.refusals import line_problems
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -229,6 +230,8 @@ def _line_move(
             "the move cannot be simulated",
             [Problem(place=place, value="start and end are the same", expected="another position [m]")],
         )
+    if problems := line_problems(study, ends, orientation, place):
+        raise InvalidInput("the move cannot be simulated", problems)
     motion = study.table.motion
     if motion.speed_max_m_per_s is None or motion.acceleration_time_s is None or motion.deceleration_time_s is None:
         raise InvalidInput(

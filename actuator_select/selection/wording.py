@@ -240,13 +240,25 @@ def summary(selection: Selection) -> list[str]:
     return [
         attainable,
         f"Best candidate: {best.name} serves {share(best, total)}{exact}, and {done}{missed}.",
-        limit_words(best, total),
+        limit_words(best, total, selection.attainable_poses),
     ]
 
 
-def limit_words(actuator: RankedActuator, total: int) -> str:
+def limited_by(actuator: RankedActuator, total: int, attainable: int) -> str:
+    """What keeps an actuator from serving everything, in a word: a check, the robot, or nothing (a dash)."""
+    if actuator.feasible_poses == total:
+        return "–"
+    if attainable <= actuator.feasible_poses:
+        return "robot"
+    check = actuator.limiting_check
+    return "–" if check is None else check.value
+
+
+def limit_words(actuator: RankedActuator, total: int, attainable: int) -> str:
     """What limits an actuator, and where."""
     check = actuator.limiting_check
+    if attainable <= actuator.feasible_poses < total:
+        return "What limits it: nothing that a drive could change; it serves every position that is attainable."
     if check is None:
         return "What limits it: no check could be evaluated."
     verdict = actuator.checks[check]
@@ -298,8 +310,8 @@ def unheld_words(run: Simulation) -> list[str]:
         where = move.start + line * float(np.interp(start, *_way(run)))
         at = ", ".join(f"{value:.3f}" for value in where)
         found.append(
-            f"the move cannot be made: no tensions within their bounds hold the platform from {start:.3f} s, at "
-            f"({at}) m, to {stop:.3f} s; the figures leave that out"
+            f"the move cannot be made: no tensions and lengths within the cables' bounds hold the platform from "
+            f"{start:.3f} s, at ({at}) m, to {stop:.3f} s; the figures leave that out"
         )
     return found
 

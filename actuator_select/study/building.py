@@ -145,7 +145,8 @@ def read_anchors(path: Path, place: str) -> FloatArray:
     """
     try:
         with path.open(encoding="utf-8-sig", newline="") as file:
-            rows = list(csv.DictReader(file))
+            reader = csv.DictReader(file)
+            rows, header = list(reader), list(reader.fieldnames or ())
     except (OSError, UnicodeDecodeError, csv.Error) as error:
         problem = Problem(
             place="robot.anchors_csv", value=f"{str(path)!r} cannot be read ({error})", expected="a CSV file, UTF-8"
@@ -158,6 +159,12 @@ def read_anchors(path: Path, place: str) -> FloatArray:
             value=f"no column {', '.join(missing)}" if rows else "no rows",
             expected=f"the columns {', '.join(ANCHOR_COLUMNS)} and a row per cable",
             remedy="separate columns with commas, and write decimals with points",
+        )
+        raise InvalidStudy(f"{place} does not hold", [problem])
+    twice = sorted({name for name in header if header.count(name) > 1})
+    if twice:
+        problem = Problem(
+            place=f"{path}, line 1", value=f"column {', '.join(twice)} twice", expected="every column once"
         )
         raise InvalidStudy(f"{place} does not hold", [problem])
     anchors, problems = np.zeros((len(rows), 6)), []

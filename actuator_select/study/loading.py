@@ -250,6 +250,13 @@ def parse_study(text: str, *, place: str, overrides: Mapping[str, object] | None
 
 
 def _refuse_moves_through_anchors(study: Study, place: str) -> None:
+    if study.table.move and study.table.motion.speed_max_m_per_s is None:
+        problem = Problem(
+            place="motion.speed_max_m_per_s",
+            value="is missing",
+            expected="the speed of the study's [[move]] tables, with acceleration_time_s and deceleration_time_s [m/s]",
+        )
+        raise InvalidStudy(f"study {place!r} does not hold", [problem])
     problems = [
         Problem(
             place=f"move[{index}]",

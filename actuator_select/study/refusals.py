@@ -1,5 +1,6 @@
 """Questions that cannot be posed: too large, or about a robot that cannot be."""
 
+from collections.abc import Sequence
 from math import comb, prod
 from typing import TYPE_CHECKING
 
@@ -140,19 +141,83 @@ def _out_of_the_plane(study: "Study") -> list[Problem]:
             problems.append(
                 Problem(place=f"robot.counterbalance[{index}]", value="leaves the plane", expected=expected)
             )
+    return problems + _out_of_the_plane_in_use(study, expected)
+
+
+def _out_of_the_plane_in_use(study: "Study", expected: str) -> list[Problem]:
+    """Loads, motions and moves that leave the plane of a planar robot."""
+    robot, normal = study.robot, study.robot.plane_normal
+    axis, problems = "xyz"[normal], []
     for index, load in enumerate(study.loads):
         if load.force_lower[normal] or load.force_upper[normal]:
             problems.append(Problem(place=f"payload[{index}].force_n", value=f"pushes along {axis}", expected=expected))
+        if load.body.centre_of_gravity[normal]:
+            place = f"payload[{index}].centre_of_gravity_m"
+            problems.append(Problem(place=place, value=f"lies off the plane along {axis}", expected=expected))
+    if robot.platform.centre_of_gravity[normal]:
+        place = "robot.centre_of_gravity_m"
+        problems.append(Problem(place=place, value=f"lies off the plane along {axis}", expected=expected))
+    problems += [
+        Problem(place=f"motion.case[{case}]", value=f"moves along {axis}", expected=expected)
+        for case in np.flatnonzero(study.motion.listed[:, :2, normal].any(axis=1))
+    ]
+    for index, move in enumerate(study.table.move):
+        problems += line_problems(study, np.array([move.from_m, move.to_m]), move.orientation_rad, f"move[{index}]")
+    return problems
+
+
+def line_problems(study: "Study", ends: FloatArray, orientation: Sequence[float], place: str) -> list[Problem]:
+    """What a straight move of a planar robot cannot do: leave the plane, or turn out of it.
+
+    Parameters
+    ----------
+    study : Study
+        Robot and plane.
+    ends : (2, 3) array
+        Start and end. [m]
+    orientation : sequence of three float
+        Angles ψ, θ, φ. [rad]
+    place : str
+        For messages.
+
+    Returns
+    -------
+    list of Problem
+        Empty of a robot in space.
+    """
+    robot = study.robot
+    if robot.freedom not in (Freedom.POINT_IN_PLANE, Freedom.PLANAR):
+        return []
+    normal, plane = robot.plane_normal, robot.plane.value
+    expected = f"a move in the plane {plane}, where degrees_of_freedom is {robot.freedom.value}"
+    problems = []
+    if np.abs(ends[:, normal] - study.region[normal, 0]).max() > LEAST_CABLE_LENGTH:
+        problems.append(Problem(place=place, value=f"leaves the plane along {'xyz'[normal]}", expected=expected))
+    if any(angle for axis, angle in enumerate(orientation) if axis != normal):
+        problems.append(Problem(place=place, value="turns out of the plane", expected=expected))
     return problems
 
 
 def _turning_in_vain(study: "Study") -> list[Problem]:
-    """Turns about axes that the robot's degrees of freedom leave out."""
+    """Turns and moments about axes that the robot's degrees of freedom leave out."""
     robot, place = study.robot, "workspace.orientations_rad"
+    planar = robot.freedom in (Freedom.POINT_IN_PLANE, Freedom.PLANAR)
     axes = [axis for axis in range(3) if axis not in robot.turning_axes]
     body = bool(robot.platform_anchors.any())
     problems = []
-    if robot.freedom in (Freedom.POINT_IN_PLANE, Freedom.PLANAR) and study.orientations[:, axes].any() and body:
+    for index, load in enumerate(study.loads):
+        if axes and (load.moment_lower[axes].any() or load.moment_upper[axes].any()):
+            problems.append(
+                Problem(
+                    place=f"payload[{index}].moment_n_m",
+                    value=f"turns about {' and '.join('xyz'[axis] for axis in axes)}",
+                    expected=f"moments that the cables take up with degrees_of_freedom {robot.freedom.value} [N m]",
+                )
+            )
+    for case in np.flatnonzero(study.motion.listed[:, 2:][:, :, axes].any(axis=(1, 2))):
+        expected = f"turns that the robot makes with degrees_of_freedom {robot.freedom.value}"
+        problems.append(Problem(place=f"motion.case[{case}]", value="turns", expected=expected))
+    if planar and study.orientations[:, axes].any() and body:
         turned = [float(angle) for angle in study.orientations[study.orientations[:, axes].any(axis=1)][0]]
         problems.append(
             Problem(

@@ -42,3 +42,21 @@ def test_the_share_of_a_robot_that_holds_enough_is_not_its_fault(catalogue: Cata
     selection = rank(load_study("cpr8"), catalogue)
     assert not selection.robot_falls_short
     assert selection.unattainable_places == ()
+
+
+def test_a_move_with_a_cable_beyond_its_greatest_length_is_not_held(catalogue: Catalogue) -> None:
+    study = parse_study(HALL, place="hall.toml", overrides={"cables.length_max_m": 9.0})
+    run = simulate(study, catalogue, "Actuator 1", start=(0.0, 0.0, 1.0), stop=(4.0, 3.0, 1.0))
+    assert run.unheld
+    assert run.unheld[0][1] == run.duration
+
+
+def test_where_a_drive_serves_all_that_is_attainable_the_robot_limits_it(catalogue: Catalogue) -> None:
+    light = {"payload.mass_kg": 0.5, "cables.tension_min_n": 0.0, "cables.tension_max_n": 30.0}
+    shorter = {"cables.length_max_m": 2.4, "motion.speed_max_m_per_s": 0.2}
+    study = parse_study(template_text("camera"), place="camera.toml", overrides=light | shorter)
+    selection = rank(study, catalogue)
+    best = selection.ranked[0]
+    assert 0 < selection.attainable_poses < selection.poses
+    assert best.feasible_poses == selection.attainable_poses
+    assert "it serves every position that is attainable" in summary(selection)[2]

@@ -120,3 +120,33 @@ def _with_csv() -> str:
     document = tomlkit.parse(CAMERA)
     document["robot"] = {"anchors_csv": "anchors.csv"}
     return tomlkit.dumps(document)
+
+
+def test_moves_loads_and_motions_that_leave_the_plane_are_refused() -> None:
+    cases = (
+        ({"move": [{"title": "out", "from_m": [0.0, 1.0, 0.0], "to_m": [0.5, 1.0, 0.0]}]}, "move[0]: leaves the plane"),
+        ({"payload.moment_n_m": [0.0, 0.0, 5.0]}, "payload[0].moment_n_m: turns about x and z"),
+        ({"robot.centre_of_gravity_m": [0.0, 0.3, 0.0]}, "robot.centre_of_gravity_m: lies off the plane"),
+        (
+            {"motion.set": "list", "motion.case": [{"velocity_m_per_s": [0.0, 3.0, 0.0]}]},
+            "motion.case[0]: moves along y",
+        ),
+        (
+            {"motion.set": "list", "motion.case": [{"angular_velocity_rad_per_s": [1.0, 0.0, 0.0]}]},
+            "motion.case[0]: turns",
+        ),
+    )
+    for changes, said in cases:
+        assert said in refused(PLANAR, **{key.replace(".", "__"): value for key, value in changes.items()})
+
+
+def test_moves_need_a_speed() -> None:
+    with pytest.raises(InvalidStudy, match=r"motion\.speed_max_m_per_s: is missing"):
+        load_study("qi-a", {"move": [{"title": "m", "from_m": [0.0, 0.0, 0.0], "to_m": [1.0, 0.0, 0.0]}]})
+
+
+def test_a_column_that_stands_twice_is_refused(tmp_path: Path) -> None:
+    text = HEADER.replace("\n", ",frame_x_m\n") + "1,-2,-2,3,0,0,0,9\n"
+    (tmp_path / "anchors.csv").write_text(text, encoding="utf-8")
+    with pytest.raises(InvalidStudy, match="column frame_x_m twice, expected every column once"):
+        parse_study(_with_csv(), place=str(tmp_path / "study.toml"))
