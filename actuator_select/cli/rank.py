@@ -83,8 +83,10 @@ def print_ranking(selection: "Selection", *, only_meeting: bool) -> None:
         share,
         summary,
     )
+    from actuator_select.selection.workspaces import reasons_why_nothing_holds
 
-    for line in [*summary(selection), "", *heading(selection)]:
+    why = reasons_why_nothing_holds(selection.study, selection.attainable_poses)
+    for line in [*summary(selection), *why, "", *heading(selection)]:
         click.echo(line)
     actuators = selection.shown(only_meeting=only_meeting)
     checks = list(selection.study.checks)
@@ -114,7 +116,7 @@ def print_ranking(selection: "Selection", *, only_meeting: bool) -> None:
             if exact:
                 click.echo(f"By the exact joint test, positions: {', '.join(exact)}.")
     meeting, ranked = len(selection.shown(only_meeting=True)), actuator_count(len(selection.ranked))
-    verb = "meets" if meeting == 1 else "meet"
+    verb = "meets" if 1 in (meeting, len(selection.ranked)) else "meet"
     click.echo(f"{meeting} of {ranked} {verb} the requirement of {selection.required_percent:g} %.")
     for warning in selection.warnings:
         console.warn(warning.text)

@@ -26,6 +26,7 @@ from actuator_select.selection import RankedActuator, Selection, wording
 from actuator_select.selection.dossier import Dossier, build_dossier
 from actuator_select.selection.sweeps import Sweep
 from actuator_select.selection.workspace_dossier import study_sweeps
+from actuator_select.selection.workspaces import reasons_why_nothing_holds
 from actuator_select.study import Study
 
 SHORTLIST = 3
@@ -93,6 +94,7 @@ def render_report(selection: Selection, catalogue: Catalogue, details: ReportDet
             words=wording,
             shortlist=shortlist(selection),
             pushing=_pushing(selection),
+            reasons=reasons_why_nothing_holds(selection.study, selection.attainable_poses),
             apart=len(selection.study.positions) - selection.poses,
             margin_note=margin_words(selection.study),
             State=State,

@@ -53,6 +53,8 @@ def check_cell(verdict: CheckVerdict, total: int) -> str:
         return "not applicable"
     if verdict.poses is None or verdict.worst_utilisation is None:
         return "not evaluated"
+    if isinf(verdict.worst_utilisation):  # at no position that some drive could serve
+        return f"{verdict.poses}/{total}"
     return f"{verdict.poses}/{total}  ×{utilisation_words(verdict.worst_utilisation)}"
 
 
@@ -257,6 +259,8 @@ def limited_by(actuator: RankedActuator, total: int, attainable: int) -> str:
 def limit_words(actuator: RankedActuator, total: int, attainable: int) -> str:
     """What limits an actuator, and where."""
     check = actuator.limiting_check
+    if not attainable:
+        return "What limits it: nothing that a drive could change; no position is attainable."
     if attainable <= actuator.feasible_poses < total:
         return "What limits it: nothing that a drive could change; it serves every position that is attainable."
     if check is None:

@@ -195,6 +195,11 @@ def evaluate_workspace(
     )
 
 
+def reasons_why_nothing_holds(study: Study, attainable: int) -> tuple[str, ...]:
+    """Why no drive could serve any position of a study; empty where some could be served."""
+    return () if attainable else evaluate_workspace(study).reasons
+
+
 def workspace_record(result: WorkspaceResult) -> dict[str, object]:
     """Counts, measure and reasons of a workspace, fit for strict JSON."""
     percent, connected = result.feasible_percent, result.connected_percent
