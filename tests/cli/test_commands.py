@@ -12,25 +12,11 @@ from pathlib import Path
 import click
 import pytest
 
-from actuator_select.cli import COMMANDS, main
+from actuator_select.cli import COMMANDS
 from actuator_select.cli import command as root
 
 README = (Path(__file__).parents[2] / "README.md").read_text(encoding="utf-8")
 Run = Callable[..., tuple[int, str, str]]
-
-
-@pytest.fixture
-def run(capfd: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Run:
-    """Run the program in an empty folder on a database of its own."""
-    monkeypatch.chdir(tmp_path)
-    monkeypatch.setenv("ACTUATOR_SELECT_DATABASE", str(tmp_path / "catalogue.db"))
-
-    def call(*arguments: str) -> tuple[int, str, str]:
-        status = main(list(arguments))
-        out, err = capfd.readouterr()
-        return status, out, err
-
-    return call
 
 
 def readme_commands() -> list[str]:
