@@ -95,9 +95,15 @@ class Simulation:
             (self.history.rank_deficient, "the structure matrix is short of rank"),
             (self.history.unbalanced, "the pseudo-inverse leaves part of the required wrench unbalanced"),
         )
-        return [
+        found = [
             f"during {'all' if where.all() else 'part'} of this move {what}." for where, what in shares if where.any()
         ]
+        least = least_cable_lengths(self.study.robot, self.move.start, self.move.stop, self.move.orientation)
+        if (least < self.study.robot.bounds.length_min).any():
+            found.append(
+                "this move comes nearer to an anchor than cables.length_min_m; rankings set such positions apart."
+            )
+        return found
 
     @property
     def pushing(self) -> list[int]:

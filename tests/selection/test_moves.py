@@ -60,3 +60,12 @@ def test_where_a_drive_serves_all_that_is_attainable_the_robot_limits_it(catalog
     assert 0 < selection.attainable_poses < selection.poses
     assert best.feasible_poses == selection.attainable_poses
     assert "it serves every position that is attainable" in summary(selection)[2]
+
+
+def test_a_move_near_an_anchor_is_warned_of(catalogue: Catalogue) -> None:
+    near = {"cables.length_min_m": 6.0}
+    study = parse_study(HALL, place="hall.toml", overrides=near)
+    ends = {"start": (0.0, 0.0, 1.0), "stop": (4.0, 3.0, 1.0)}
+    assert any("cables.length_min_m" in text for text in simulate(study, catalogue, "Actuator 1", **ends).glossed_over)
+    free = parse_study(HALL, place="hall.toml")
+    assert simulate(free, catalogue, "Actuator 1", **ends).glossed_over == []
