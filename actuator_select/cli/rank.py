@@ -15,6 +15,10 @@ SAFE_RULE = (
     "Feasible by the safe rule: one constant limit for all cables, the least that the cables' worst speed and\n"
     "acceleration leave; sufficient, so that the true share is no smaller. Acceleration: torque for load and rotor."
 )
+NO_EXACT_TEST = (
+    "The exact joint test was not made: it leaves out turning platforms, sampled and listed motions, unknown figures,\n"
+    "more than 12 cables, and what would take more than some seconds."
+)
 
 
 @click.command("rank")
@@ -113,8 +117,7 @@ def print_ranking(selection: "Selection", *, only_meeting: bool) -> None:
         if not selection.study.tension_model.lets_cables_push:
             click.echo(SAFE_RULE)
             exact = [f"{one.name} {one.exact_poses}" for one in actuators if one.exact_poses is not None]
-            if exact:
-                click.echo(f"By the exact joint test, positions: {', '.join(exact)}.")
+            click.echo(f"By the exact joint test, positions: {', '.join(exact)}." if exact else NO_EXACT_TEST)
     meeting, ranked = len(selection.shown(only_meeting=True)), actuator_count(len(selection.ranked))
     verb = "meets" if 1 in (meeting, len(selection.ranked)) else "meet"
     click.echo(f"{meeting} of {ranked} {verb} the requirement of {selection.required_percent:g} %.")

@@ -121,7 +121,8 @@ def print_simulation(run: "Simulation") -> None:
         for exceedance in run.exceedances:
             click.echo(f"  {exceedance_words(exceedance)}")
     elif not run.missing and not run.unheld:
-        click.echo("Every limit holds over the whole move.")
+        pushing = ", if its cables could push" if run.pushing else ""
+        click.echo(f"Every limit holds over the whole move{pushing}.")
     for check, missing in run.missing.items():
         click.echo(f"  {check.value} not evaluated: {missing_words(missing)} unknown")
     if run.pushing:

@@ -81,7 +81,7 @@ def command(
 
 def print_sweep(sweep: "Sweep") -> None:
     """Print a row per combination, and the best one."""
-    from actuator_select.selection.workspaces import unit_words
+    from actuator_select.selection.workspaces import measure_warnings, unit_words
 
     keys = [axis.key for axis in sweep.axes]
     unit = sweep.points[0].measure_unit
@@ -94,6 +94,14 @@ def print_sweep(sweep: "Sweep") -> None:
     console.emit_table(header, [_row(point) for point in sweep.points], right=range(len(header)))
     best = ", ".join(f"{key} = {value:g}" for key, value in zip(keys, sweep.best.values, strict=True))
     click.echo(f"Most is feasible at {best}: {sweep.best.feasible_poses} of {sweep.best.poses} positions.")
+    beyond = {
+        text
+        for point in sweep.points
+        if point.measure is not None and point.measure_most is not None
+        for text in measure_warnings(point.measure, point.measure_most)
+    }
+    for text in beyond:
+        console.warn(text)
     if len(sweep.points) > 1 and len({point.feasible_poses for point in sweep.points}) == 1:
         console.warn("the count is the same at every combination: none of these keys decides it within its range")
 

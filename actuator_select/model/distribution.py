@@ -23,7 +23,7 @@ from actuator_select.model.hyperplanes import ColumnBounds, WrenchSets
 from actuator_select.model.kinematics import CableGeometry, cable_geometry
 from actuator_select.model.robot import CableRobot
 from actuator_select.model.supports import Support, support_wrenches
-from actuator_select.model.tension import BALANCE_TOLERANCE, TensionModel, pseudo_inverse
+from actuator_select.model.tension import BALANCE_TOLERANCE, TensionModel, balanced_rows, pseudo_inverse
 
 BOUND_TOLERANCE = 1e-9  # relative to the largest tension; a smaller excess is rounding
 PROGRAM_TOLERANCE = 1e-10  # the least that HiGHS allows, of tensions near 1
@@ -77,7 +77,7 @@ def distribute(
     Distribution
         At the S instants.
     """
-    rows = robot.translation_rows if model is TensionModel.FORCE_ONLY else robot.wrench_rows
+    rows = balanced_rows(robot, model)
     angles = np.broadcast_to(orientations, (len(positions), 3))
     geometry = cable_geometry(robot, positions, angles)
     structure = geometry.structure_matrix[:, rows]

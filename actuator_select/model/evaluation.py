@@ -157,10 +157,11 @@ def position_utilisation(demand: Demand, actuators: ActuatorSet, checks: Sequenc
         Greatest utilisation over cables and orientations; NaN where a figure is unknown.
     """
     result: dict[Check, FloatArray] = {}
-    lines = coupled_limits(demand)
+    lines = {check: line for check, line in coupled_limits(demand).items() if check in checks}
+    rows = voltage_demand(demand) if lines else None
     for check in checks:
-        if check in lines:
-            result[check] = voltage_demand(demand).utilisation(lines[check](actuators))
+        if rows is not None and check in lines:
+            result[check] = rows.utilisation(lines[check](actuators))
         else:
             scalar = _scalar_check(demand, actuators, check)
             result[check] = utilisation(scalar.demand, scalar.limit[:, None])

@@ -8,9 +8,8 @@ import numpy as np
 
 from actuator_select.model.arrays import BoolArray, FloatArray, IntArray
 from actuator_select.model.hyperplanes import ColumnBounds, WrenchSets, minimax_by_numpy
+from actuator_select.model.tension import BALANCE_TOLERANCE, RANK_TOLERANCE
 
-RANK_TOLERANCE = 1e-9  # relative to the largest singular value, moments divided by the characteristic length
-BALANCE_TOLERANCE = 1e-9  # of a wrench outside the range of the structure matrix, relative to the wrenches at hand
 KERNEL_PAYS_FROM = 200_000  # normals; below, NumPy is done before a compiler is loaded
 CELLS_AT_ONCE = 1 << 20  # (pose, column, row) cells in one chunk
 
@@ -128,7 +127,7 @@ def structure_rank(columns: FloatArray) -> tuple[IntArray, FloatArray]:
     return rank, left
 
 
-def _hold_short(  # noqa: PLR0913, PLR0917
+def _hold_short(  # noqa: PLR0913, PLR0917 - one step of `hold_wrenches`
     columns: FloatArray,
     wrenches: WrenchSets,
     which: IntArray,

@@ -22,7 +22,7 @@ from actuator_select.model.kinematics import cable_geometry
 from actuator_select.model.motion import MotionKind, MotionSet, extent
 from actuator_select.model.robot import CableRobot
 from actuator_select.model.supports import support_wrenches
-from actuator_select.model.tension import TensionModel
+from actuator_select.model.tension import TensionModel, balanced_rows
 
 MOST_CABLES = 12
 MOST_CHOICES = 1 << 13  # of a line for every cable
@@ -95,7 +95,7 @@ def jointly_feasible(
         None where it would take too long. Exact without the centripetal term. With it, a safe answer: the term relieves
         a cable that is wound in, and is left out there.
     """
-    rows = robot.translation_rows if demand.tension_model is TensionModel.FORCE_ONLY else robot.wrench_rows
+    rows = balanced_rows(robot, demand.tension_model)
     cases = len(demand.lengths) // len(demand.positions)
     loads = len(wrenches[0])
     which = (poses % cases) // loads
@@ -106,10 +106,9 @@ def jointly_feasible(
     scale = wrench_scale(robot, rows)
     columns = np.concatenate([geometry.structure_matrix[:, rows], support.controlled], axis=2) * scale[:, None]
     pick = list(rows)
-    required = [[wrenches[o][k] for k in range(loads)] for o in range(len(wrenches))]
-    static = np.array([[w.static[pick] * scale for w in each] for each in required])[which, load]
-    lever = np.array([[w.per_acceleration[pick] * scale[:, None] for w in each] for each in required])[which, load]
-    external = np.array([[w.external_reach[pick] * scale for w in each] for each in required])[which, load]
+    static = np.array([[w.static[pick] * scale for w in each] for each in wrenches])[which, load]
+    lever = np.array([[w.per_acceleration[pick] * scale[:, None] for w in each] for each in wrenches])[which, load]
+    external = np.array([[w.external_reach[pick] * scale for w in each] for each in wrenches])[which, load]
     problem = _Problem(
         robot=robot,
         motion=demand.motion,

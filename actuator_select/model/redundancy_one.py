@@ -7,10 +7,10 @@ import numpy as np
 
 from actuator_select.model.arrays import BoolArray, FloatArray
 from actuator_select.model.dynamics import RequiredWrench, wrench_scale
-from actuator_select.model.feasibility import RANK_TOLERANCE
 from actuator_select.model.kinematics import cable_geometry
 from actuator_select.model.robot import CableRobot
 from actuator_select.model.supports import support_wrenches
+from actuator_select.model.tension import RANK_TOLERANCE
 
 NULL_TOLERANCE = 1e-12  # of the unit null vector; a cable whose entry is smaller keeps its tension along the line
 BOUND_TOLERANCE = 1e-9  # of the bounds, relative to the largest tension at hand; less is rounding

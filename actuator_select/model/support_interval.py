@@ -8,7 +8,7 @@ import numpy as np
 from actuator_select.model.arrays import BoolArray, FloatArray, IntArray
 from actuator_select.model.demand import BOUND_TOLERANCE, Progress
 from actuator_select.model.dynamics import RequiredWrench, wrench_scale, wrench_sets
-from actuator_select.model.feasibility import BALANCE_TOLERANCE, structure_rank
+from actuator_select.model.feasibility import structure_rank
 from actuator_select.model.hyperplanes import (
     COLUMN_TOLERANCE,
     WRENCH_TOLERANCE,
@@ -20,6 +20,7 @@ from actuator_select.model.kinematics import cable_geometry
 from actuator_select.model.motion import MotionSet
 from actuator_select.model.robot import CableRobot
 from actuator_select.model.supports import counterbalance_columns
+from actuator_select.model.tension import BALANCE_TOLERANCE
 
 POSES_AT_ONCE = 1 << 14
 

@@ -10,7 +10,7 @@ from actuator_select.model.hyperplanes import WrenchSets
 from actuator_select.model.robot import CableRobot
 
 RANK_TOLERANCE = 1e-9  # relative to the largest singular value
-BALANCE_TOLERANCE = 1e-9  # relative to the norm of the largest required wrench, N and N m taken alike
+BALANCE_TOLERANCE = 1e-9  # of a wrench that nothing balances, relative to the norm of the largest required one
 
 
 class TensionModel(StrEnum):

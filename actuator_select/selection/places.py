@@ -164,12 +164,14 @@ def connected_percents(
     Returns
     -------
     dict of int to float
-        Empty without a home position.
+        Empty without a home position; without the actuators whose positions are not known, because a figure is missing.
     """
     if study.table.workspace.home_m is None:
         return {}
     shares = {}
     for index in indices:
+        if not all(count.evaluated[index] for count in evaluation.checks.values()):
+            continue
         feasible = np.zeros(len(study.positions), dtype=np.bool_)
         feasible[counted] = position_verdicts(evaluation, int(index), study.checks)
         if (share := connected_share(study, feasible)) is not None:

@@ -394,7 +394,12 @@ def _warnings(
 
 
 def _measure_warnings(measured: Measure | None) -> list[str]:
-    if measured is None or measured.value <= measured.outer * (1.0 + BOUND_TOLERANCE):
+    return [] if measured is None else measure_warnings(measured.value, measured.outer)
+
+
+def measure_warnings(value: float, most: float) -> list[str]:
+    """What to mind of a measure that exceeds its own interval."""
+    if value <= most * (1.0 + BOUND_TOLERANCE):
         return []
     what = "those on the faces of the box too, and so exceeds its own interval"
     return [f"The measure gives every node a whole cell, {what}: refine the grid, or --set workspace.grid=midpoints."]

@@ -292,6 +292,13 @@ class RequirementTable(Table):
     feasible_percent: Percent = 90.0
     must_serve: tuple[MustServeTable, ...] = ()
 
+    @model_validator(mode="after")
+    def _titles_differ(self) -> Self:
+        titles = [place.title for place in self.must_serve if place.title]
+        if len(set(titles)) < len(titles):
+            raise ValueError("every title of [[requirement.must_serve]] once, so that results can name the place")
+        return self
+
 
 class MoveTable(Table):
     """A straight move that the report simulates."""

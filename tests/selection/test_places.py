@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from actuator_select import Catalogue, load_study, open_catalogue, rank, simulate
-from actuator_select.errors import InvalidInput
+from actuator_select.errors import InvalidInput, InvalidStudy
 from actuator_select.model.grid_measure import connected_positions
 from actuator_select.selection import selection_record
 from actuator_select.selection.records import simulation_record
@@ -124,3 +124,9 @@ def test_a_limit_exceeded_up_to_where_nothing_holds_any_more_ends_there(own: Cat
     over = [one for one in run.exceedances if one.check == "torque"]
     assert over
     assert all(one.start < one.stop <= run.duration for one in over)
+
+
+def test_places_with_the_same_title_are_refused() -> None:
+    twice = [{"title": "corner", "position_m": [0.5, 0.5, -0.5]}] * 2
+    with pytest.raises(InvalidStudy, match="every title of"):
+        load_study("cpr8", {"requirement.must_serve": twice})
