@@ -1,0 +1,43 @@
+"""What every catalogue command does: open the catalogue, and say what to mind about its rows."""
+
+from contextlib import contextmanager
+from math import isfinite
+from typing import TYPE_CHECKING, Any
+
+from actuator_select.cli import console
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
+    from actuator_select.database import Catalogue
+    from actuator_select.selection import Finding
+
+
+@contextmanager
+def opened(database: str | None) -> "Iterator[Catalogue]":
+    """Open the catalogue and tell what opening it did."""
+    from actuator_select.database import open_catalogue
+
+    with open_catalogue(database) as catalogue:
+        console.say_all(catalogue.notices)
+        yield catalogue
+
+
+def finding_sentence(finding: "Finding") -> str:
+    """Which row a finding is about, and the finding."""
+    name = "" if finding.name == finding.id else f" ({finding.name})"
+    return f"{finding.kind} {finding.id}{name}: {finding.text}"
+
+
+def warn_of(findings: "Sequence[Finding]") -> None:
+    """Warn of rows that do not agree with themselves."""
+    for finding in findings:
+        console.warn(finding_sentence(finding))
+
+
+def finding_record(finding: "Finding") -> dict[str, Any]:
+    """A finding for JSON."""
+    from dataclasses import asdict
+
+    record = asdict(finding)
+    return record | {"deviation": finding.deviation if isfinite(finding.deviation) else None}
