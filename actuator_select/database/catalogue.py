@@ -277,7 +277,7 @@ class Catalogue:
                 # A source that is refused cannot be referred to either; that needs no telling.
                 problems += [problem for problem in (*refused, *more) if not problems or problem.place != "source_id"]
                 if not problems:
-                    write_plan(connection, one, plan)
+                    write_plan(connection, one, plan, by="catalog add")
             if not problems and not plan.added:
                 problems = [_already_there(record)]
             refuse(f"the {found.singular} was not added", problems)
@@ -325,7 +325,7 @@ class Catalogue:
         with writing(self._engine, keep=not dry_run) as connection:
             plan, more = plan_rows(connection, found, records, update=update)
             refuse(f"nothing was imported from {table.name}", [*problems, *more])
-            write_plan(connection, found, plan)
+            write_plan(connection, found, plan, by=f"catalog import {table.name}")
         return ImportReport(
             kind=found.name,
             added=len(plan.added),

@@ -7,7 +7,7 @@ from pathlib import PurePath
 
 import sqlalchemy as sa
 
-from actuator_select.database import queries
+from actuator_select.database import history, queries
 from actuator_select.database.cells import Refused, Value, check_row, quoted, read_value, write_value
 from actuator_select.database.content import row_digest
 from actuator_select.database.csv_table import CsvTable
@@ -220,15 +220,10 @@ def refuse(heading: str, problems: Sequence[Problem]) -> None:
         raise InvalidRows(heading, sorted(dict.fromkeys(problems), key=_line))
 
 
-def write_plan(connection: sa.Connection, kind: Kind, plan: Plan) -> None:
-    """Write what was planned; a row is of the user unless it equals what was shipped."""
-    ledger = queries.fetch_ledger(connection)
-    for rows, write in ((plan.added, queries.insert_rows), (plan.updated, queries.update_rows)):
-        write(connection, kind, [row | {"origin": _origin(kind, row, ledger)} for row in rows])
-
-
-def _origin(kind: Kind, row: queries.Row, ledger: Mapping[tuple[str, str], str]) -> str:
-    return "shipped" if ledger.get((kind.name, str(row["id"]))) == row_digest(kind, row) else "user"
+def write_plan(connection: sa.Connection, kind: Kind, plan: Plan, *, by: str) -> None:
+    """Write what was planned; `by` says by what, for the history."""
+    history.add_rows(connection, kind, plan.added, by=by)
+    history.change_rows(connection, kind, plan.updated, by=by)
 
 
 def _fill(record: Record, pairs: Sequence[tuple[Field, object]]) -> tuple[Record, list[Problem]]:

@@ -151,6 +151,12 @@ MOTORS = Kind(
             "dc_controller",
             "ac_rms_phase",
         ),
+        _choice(
+            "figures_at",
+            "Shaft that torque, speed, constants and inertia are stated for; empty is the motor's own shaft",
+            "motor_shaft",
+            "output_shaft",
+        ),
         _above_zero("rated_power_w", "W", "Rated mechanical power at the shaft"),
         _above_zero("nominal_voltage_v", "V", "Voltage that the figures hold for, and the limit of the voltage check"),
         _above_zero("no_load_speed_rpm", "rpm", "Speed at nominal voltage without load"),
@@ -274,6 +280,7 @@ WINCHES = Kind(
         _text("motor", "Its own motor, as described"),
         _from_zero("drum_inertia_kg_m2", "kg m²", "Moment of inertia of the drum"),
         _from_zero("winch_inertia_kg_m2", "kg m²", "Moment of inertia of the whole"),
+        _choice("winch_inertia_at", "Shaft that winch_inertia_kg_m2 is seen from", "drum_shaft", "motor_shaft"),
         _text("winch_inertia_basis", "What that inertia holds and from where it is seen"),
         _above_zero("mass_kg", "kg", "Mass"),
         _above_zero("max_tension_n", "N", "Cable tension that it bears", may_be_unlimited=True),
@@ -284,6 +291,27 @@ WINCHES = Kind(
         *_PROVENANCE,
     ),
     shown=("id", "manufacturer", "name", "drum_radius_mm", "drum_length_mm", "drum_inertia_kg_m2", "max_tension_n"),
+)
+
+
+def _glob(name: str, kind: str) -> Field:
+    return Field(
+        name=name,
+        type="str",
+        required=True,
+        pattern=r"[A-Za-z0-9*][A-Za-z0-9._+*-]{0,99}",
+        form=f"an id of {kind}, in which * stands for any characters",
+        description=f"Which {kind}",
+        aliases=(name.removesuffix("_pattern"),),
+    )
+
+
+COMPATIBILITIES = Kind(
+    name="compatibilities",
+    singular="compatibility",
+    description="Motors and gearboxes that fit together, as a maker states it",
+    fields=(_ID, _glob("motor_pattern", "motors"), _glob("gearbox_pattern", "gearboxes"), *_PROVENANCE),
+    shown=("id", "motor_pattern", "gearbox_pattern", "source_id"),
 )
 
 ROPES = Kind(
@@ -331,7 +359,9 @@ ACTUATORS = Kind(
     ),
 )
 
-KINDS = MappingProxyType({kind.name: kind for kind in (SOURCES, MOTORS, GEARBOXES, WINCHES, ROPES, ACTUATORS)})
+KINDS = MappingProxyType(
+    {kind.name: kind for kind in (SOURCES, MOTORS, GEARBOXES, COMPATIBILITIES, WINCHES, ROPES, ACTUATORS)}
+)
 """Every kind, in an order in which references point backwards."""
 
 ROLES = MappingProxyType({"motor": MOTORS, "gearbox": GEARBOXES, "winch": WINCHES})

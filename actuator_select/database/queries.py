@@ -9,7 +9,7 @@ import sqlalchemy as sa
 from actuator_select.database.cells import Value
 from actuator_select.database.fields import Field, Kind
 from actuator_select.database.kinds import ACTUATORS, ROLES
-from actuator_select.database.schema import SHIPPED_ROWS, STATE, TABLES
+from actuator_select.database.schema import CHANGES, SHIPPED_ROWS, STATE, TABLES
 
 Row = dict[str, Value]
 
@@ -153,6 +153,21 @@ def replace_ledger(connection: sa.Connection, ledger: Mapping[tuple[str, str], s
     if ledger:
         entries = [{"kind": kind, "id": row_id, "digest": digest} for (kind, row_id), digest in ledger.items()]
         connection.execute(SHIPPED_ROWS.insert(), entries)
+
+
+def insert_changes(connection: sa.Connection, changes: Sequence[Mapping[str, str | None]]) -> None:
+    """Record what happened to rows; keys are the columns of the history."""
+    if changes:
+        connection.execute(CHANGES.insert(), list(changes))
+
+
+def fetch_changes(connection: sa.Connection, row_id: str, kind: Kind | None = None) -> list[dict[str, str | None]]:
+    """History of the rows that have or had this id, oldest first."""
+    columns = [column for column in CHANGES.columns if column.name != "number"]
+    query = sa.select(*columns).where(CHANGES.c.row_id == row_id).order_by(CHANGES.c.number)
+    if kind is not None:
+        query = query.where(CHANGES.c.kind == kind.name)
+    return [dict(row) for row in connection.execute(query).mappings()]
 
 
 def fetch_state(connection: sa.Connection, name: str) -> str | None:

@@ -7,7 +7,7 @@ import sqlalchemy as sa
 from actuator_select.database.fields import Field, Kind
 from actuator_select.database.kinds import KINDS
 
-SCHEMA_REVISION = "0001"
+SCHEMA_REVISION = "0002"
 """Alembic's head. Stated here so that opening an up-to-date database need not import Alembic; a test compares."""
 
 ID_LENGTH = 100  # characters, as the pattern of ids allows
@@ -87,4 +87,21 @@ STATE = sa.Table(
     metadata,
     sa.Column("name", sa.String(40), primary_key=True),
     sa.Column("value", sa.Text(), nullable=False),
+)
+
+CHANGES = sa.Table(
+    "changes",
+    metadata,
+    sa.Column("number", sa.Integer(), primary_key=True, autoincrement=True),
+    sa.Column("changed_at", sa.String(20), nullable=False),
+    sa.Column("changed_by", sa.Text(), nullable=False),
+    sa.Column("action", sa.String(20), nullable=False),
+    sa.Column("kind", sa.String(20), nullable=False),
+    sa.Column("row_id", sa.String(ID_LENGTH), nullable=False),
+    sa.Column("field", sa.String(60)),
+    sa.Column("old", sa.Text()),
+    sa.Column("new", sa.Text()),
+    sa.Index("ix_changes_row_id", "row_id"),
+    sa.CheckConstraint("action IN ('added', 'changed', 'removed')", name="action"),
+    comment="What happened to every row: when, by what, old and new value",
 )

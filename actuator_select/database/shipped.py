@@ -11,7 +11,8 @@ from pathlib import Path
 import sqlalchemy as sa
 
 from actuator_select._resources import shipped_dir
-from actuator_select.database import queries
+from actuator_select._version import __version__
+from actuator_select.database import history, queries
 from actuator_select.database.cells import check_row
 from actuator_select.database.content import row_digest
 from actuator_select.database.csv_table import read_csv
@@ -20,6 +21,7 @@ from actuator_select.database.ingest import read_records, refuse
 from actuator_select.database.kinds import KINDS
 
 DIGEST_STATE = "shipped_digest"
+_BY = f"rows shipped with actuator-select {__version__}"
 
 ShippedRows = Mapping[str, Mapping[str, queries.Row]]
 """Rows by kind and id."""
@@ -144,8 +146,8 @@ def _bring_in(
             renewed.append(row)
             outcome.renewed.append(name)
         ledger[key] = digest
-    queries.insert_rows(connection, kind, added)
-    queries.update_rows(connection, kind, renewed)
+    history.add_rows(connection, kind, added, by=_BY, origin="shipped")
+    history.change_rows(connection, kind, renewed, by=_BY, origin="shipped")
 
 
 def _possibility(
@@ -187,5 +189,5 @@ def _take_out(
             removed.append(row_id)
             outcome.removed.append(name)
         del ledger[kind.name, row_id]
-    queries.delete_rows(connection, kind, removed)
-    queries.update_rows(connection, kind, orphaned)
+    history.remove_rows(connection, kind, removed, by=_BY)
+    history.change_rows(connection, kind, orphaned, by=_BY, origin="user")

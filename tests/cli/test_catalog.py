@@ -314,7 +314,7 @@ def test_ctrl_c_during_an_import_leaves_nothing(
     def stop(*_: object) -> None:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("actuator_select.database.queries.update_rows", stop)
+    monkeypatch.setattr("actuator_select.database.queries.insert_changes", stop)
     (tmp_path / "motors.csv").write_text(f"id,source_id\na,{SOURCE}\n")
     status, _, err = run("import", "motors.csv")
     assert (status, err.strip()) == (130, "Interrupted.")

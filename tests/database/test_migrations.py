@@ -13,7 +13,18 @@ from actuator_select.database import migration
 from actuator_select.database.connection import database_url, make_engine, reading, writing
 from actuator_select.database.schema import SCHEMA_REVISION, metadata
 
-TABLES = ["actuators", "catalogue_state", "gearboxes", "motors", "ropes", "shipped_rows", "sources", "winches"]
+TABLES = [
+    "actuators",
+    "catalogue_state",
+    "changes",
+    "compatibilities",
+    "gearboxes",
+    "motors",
+    "ropes",
+    "shipped_rows",
+    "sources",
+    "winches",
+]
 
 ROPES = """\
 CREATE TABLE ropes (
@@ -123,5 +134,6 @@ def _constraints(connection: sa.Connection, table: str) -> dict[str, object]:
         "foreign": sorted(map(str, inspector.get_foreign_keys(table))),
         "unique": inspector.get_unique_constraints(table),
         "primary": inspector.get_pk_constraint(table),
-        "columns": [(one["name"], str(one["type"]), one["nullable"]) for one in inspector.get_columns(table)],
+        "columns": sorted((one["name"], str(one["type"]), one["nullable"]) for one in inspector.get_columns(table)),
+        "indexes": inspector.get_indexes(table),
     }

@@ -140,8 +140,8 @@ def test_an_edit_that_the_program_ships_later_becomes_shipped(database: Path, ed
 
 
 def test_new_rows_are_added(database: Path, edit: Edit) -> None:
-    edit("winches", "\nfilipovic-kevac-2018-winch,", "\nbigger,,,,90" + "," * 32 + "\nfilipovic-kevac-2018-winch,")
-    edit("winches", "bigger,,,,90" + "," * 32, "bigger,,,,90" + "," * 26 + ",filipovic-kevac-2018,,,,")
+    edit("winches", "\nfilipovic-kevac-2018-winch,", "\nbigger,,,,90" + "," * 33 + "\nfilipovic-kevac-2018-winch,")
+    edit("winches", "bigger,,,,90" + "," * 33, "bigger,,,,90" + "," * 27 + ",filipovic-kevac-2018,,,,")
     with open_catalogue(database) as catalogue:
         assert catalogue.part("bigger")[1]["drum_radius_mm"] == 90.0
         assert "1 added" in catalogue.notices[0]
