@@ -161,7 +161,7 @@ def insert_changes(connection: sa.Connection, changes: Sequence[Mapping[str, str
         connection.execute(CHANGES.insert(), list(changes))
 
 
-def fetch_changes(connection: sa.Connection, row_id: str, kind: Kind | None = None) -> list[dict[str, str | None]]:
+def fetch_changes(connection: sa.Connection, row_id: str, kind: Kind | None = None) -> list[dict[str, Any]]:
     """History of the rows that have or had this id, oldest first."""
     columns = [column for column in CHANGES.columns if column.name != "number"]
     query = sa.select(*columns).where(CHANGES.c.row_id == row_id).order_by(CHANGES.c.number)
