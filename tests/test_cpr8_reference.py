@@ -53,7 +53,7 @@ def test_the_study_is_the_one_of_the_reference(catalogue: Catalogue) -> None:
     assert study.table.motion.speed_max_m_per_s == reference["speed_max_m_per_s"]
     assert study.table.motion.acceleration_time_s == reference["acceleration_time_s"]
     assert study.table.motion.deceleration_time_s == reference["deceleration_time_s"]
-    assert len(catalogue.rows("actuators")) == 5
+    assert len(catalogue.rows("actuators", where="source_location = 'Table 1'")) == 5
 
 
 def test_the_published_reading_gives_table_2_but_for_actuator_5(catalogue: Catalogue) -> None:

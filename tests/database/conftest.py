@@ -7,15 +7,25 @@ from pathlib import Path
 import pytest
 
 from actuator_select.database import Catalogue, open_catalogue
+from actuator_select.database.connection import writing
+from actuator_select.database.kinds import KINDS
+from actuator_select.database.queries import delete_rows
 
 SOURCE = "filipovic-kevac-2018"
 
 
 @pytest.fixture(scope="session")
 def template(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A catalogue of the shipped rows, to be copied, which is faster than to be made."""
+    """A catalogue of Table 1 alone, to be copied, which is faster than to be made."""
     path = tmp_path_factory.mktemp("template") / "catalogue.db"
-    open_catalogue(path).close()
+    with open_catalogue(path) as made:
+        others = {
+            kind: [row["id"] for row in made.rows(kind) if row.get("source_id", row["id"]) != SOURCE] for kind in KINDS
+        }
+        others["actuators"] = [row["id"] for row in made.rows("actuators") if "identified" in row["source_location"]]
+        with writing(made._engine) as connection:  # noqa: SLF001
+            for kind in reversed(KINDS):
+                delete_rows(connection, KINDS[kind], others[kind])
     return path
 
 

@@ -1,7 +1,7 @@
 """The shipped rows: Table 1 as printed, and what a newer set of rows does to a database that is in use."""
 
 import shutil
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 
 import pytest
@@ -40,12 +40,56 @@ TABLE_1 = {
 MOTOR = "filipovic-kevac-2018-motor-1"
 ACTUATOR = "filipovic-kevac-2018-1"
 
+PARTS = {"motors": 145, "gearboxes": 230, "ropes": 54}  # beside those of Table 1
+TWINS = {
+    "filipovic-kevac-2018-4": "filipovic-kevac-2018-4-maxon-236662",
+    "filipovic-kevac-2018-5": "filipovic-kevac-2018-5-maxon-DCX22L01EBSL596",
+}
+
 Edit = Callable[[str, str, str], None]
 
 
-def test_the_shipped_actuators_are_table_1_as_printed(catalogue: Catalogue) -> None:
-    rows = catalogue.rows("actuators")
+@pytest.fixture
+def catalogue() -> Iterator[Catalogue]:
+    """Everything that is shipped."""
+    with open_catalogue(":memory:") as opened:
+        yield opened
+
+
+def test_the_shipped_actuators_are_table_1_as_printed_and_two_twins(catalogue: Catalogue) -> None:
+    rows = [row for row in catalogue.rows("actuators") if row["id"] not in TWINS.values()]
     assert {row["name"]: tuple(row[column] for column in TABLE_1_COLUMNS) for row in rows} == TABLE_1
+    assert catalogue.count("actuators") == len(TABLE_1) + len(TWINS)
+
+
+@pytest.mark.parametrize(("printed", "twin"), TWINS.items())
+def test_a_twin_differs_from_the_printed_row_in_its_motor_alone(catalogue: Catalogue, printed: str, twin: str) -> None:
+    one, other = catalogue.part(printed)[1], catalogue.part(twin)[1]
+    for column in ("gearbox_id", "winch_id", "efficiency_percent", "source_id"):
+        assert one[column] == other[column]
+    assert other["motor_id"] == twin.replace(f"{printed}-", "")
+    # What identifies the motor.
+    for column in ("terminal_resistance_ohm", "torque_constant_nm_per_a", "rotor_inertia_g_cm2", "nominal_voltage_v"):
+        assert one[f"motor.{column}"] == other[f"motor.{column}"]
+    assert one["motor.rated_speed_rpm"] == pytest.approx(other["motor.rated_speed_rpm"], rel=2e-3)
+
+
+def test_the_shipped_rows_are_as_many_as_they_were_read(catalogue: Catalogue) -> None:
+    own = {kind: sum(row["source_id"] != "filipovic-kevac-2018" for row in catalogue.rows(kind)) for kind in PARTS}
+    assert own == PARTS
+
+
+def test_a_calculated_sheet_says_so(catalogue: Catalogue) -> None:
+    calculated = [row for row in catalogue.rows("motors") if row["provenance"] == "manufacturer_calculation"]
+    assert {row["manufacturer"] for row in calculated} == {"Magmotor"}
+    assert len(calculated) == 23
+    assert all("Calculated sheet" in row["notes"] for row in calculated)
+
+
+def test_no_shipped_efficiency_is_a_maximum_in_disguise(catalogue: Catalogue) -> None:
+    rows = catalogue.rows("gearboxes")
+    assert sum(row["max_efficiency_percent"] is not None for row in rows) == 223
+    assert not any(row["efficiency_percent"] is not None for row in rows)
 
 
 @pytest.mark.parametrize("kind", [kind for kind in KINDS if kind != "sources"])
@@ -151,7 +195,7 @@ def test_a_row_that_the_user_deleted_does_not_come_back(database: Path, edit: Ed
     user_deletes(database, "actuators", ACTUATOR)
     edit("actuators", "Actuator 1,", "Actuator One,")
     with open_catalogue(database) as catalogue:
-        assert catalogue.count("actuators") == 4
+        assert catalogue.count("actuators") == len(TABLE_1) + len(TWINS) - 1
         assert catalogue.notices == (
             f"Catalogue rows not brought back, because they were deleted: actuator {ACTUATOR}.",
         )
@@ -172,7 +216,7 @@ def test_rows_that_are_no_longer_shipped_go(database: Path, shipped_folder: Path
     remove_line(shipped_folder / "actuators.csv", ACTUATOR)
     remove_line(shipped_folder / "motors.csv", MOTOR)
     with open_catalogue(database) as catalogue:
-        assert (catalogue.count("actuators"), catalogue.count("motors")) == (4, 4)
+        assert not {ACTUATOR, MOTOR} & {row["id"] for kind in ("actuators", "motors") for row in catalogue.rows(kind)}
         assert catalogue.notices == ("The shipped catalogue rows were refreshed: 2 removed.",)
 
 
@@ -183,7 +227,7 @@ def test_a_row_that_is_no_longer_shipped_stays_while_a_users_row_needs_it(databa
     remove_line(shipped_folder / "actuators.csv", ACTUATOR)
     remove_line(shipped_folder / "motors.csv", MOTOR)
     with open_catalogue(database) as catalogue:
-        assert catalogue.count("motors") == 5
+        assert catalogue.part(MOTOR)[1]["rated_power_w"] == 300.0
         assert f"kept because other rows refer to them: motor {MOTOR}" in catalogue.notices[1]
 
 
@@ -209,7 +253,7 @@ def test_a_shipped_row_whose_name_is_taken_does_not_stop_the_others(database: Pa
 
 def test_faulty_shipped_rows_change_nothing(database: Path, edit: Edit) -> None:
     edit("motors", "300,48,,,4700", "-300,48,,,4700")
-    with pytest.raises(InvalidRows, match=r"motors\.csv, line 2, rated_power_w"):
+    with pytest.raises(InvalidRows, match=r"motors\.csv, line \d+, rated_power_w"):
         open_catalogue(database)
 
 

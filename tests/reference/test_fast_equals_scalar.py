@@ -47,7 +47,7 @@ def ranked(catalogue: Catalogue, case: Case, motion: str) -> Selection:
             **(sampled if motion == "sampled" else {}),
         },
     )
-    return rank(study, catalogue)
+    return rank(study, catalogue, where="source_location = 'Table 1'")
 
 
 @pytest.mark.parametrize("centripetal", [True, False])

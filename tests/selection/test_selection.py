@@ -11,6 +11,8 @@ from actuator_select.errors import InvalidExpression, InvalidInput, NoCandidates
 from actuator_select.model.actuation import Check
 from actuator_select.selection import check_catalogue, check_rows, selection_record
 
+PRINTED = "source_location = 'Table 1'"  # without the twins whose motors are identified
+
 
 @pytest.fixture
 def own() -> Iterator[Catalogue]:
@@ -109,7 +111,7 @@ def test_the_record_is_strict_json_and_keeps_the_contract(own: Catalogue) -> Non
 
 
 def test_tables_come_out_as_data_frames(catalogue: Catalogue) -> None:
-    selection = rank(load_study("cpr8"), catalogue)
+    selection = rank(load_study("cpr8"), catalogue, where=PRINTED)
     frame = selection.frame()
     assert frame.index[0] == "filipovic-kevac-2018-1"
     assert frame["feasible_poses"].tolist() == [200, 184, 180, 152, 0]
@@ -128,7 +130,7 @@ def test_several_orientations_count_each_position_once(catalogue: Catalogue) -> 
 
 
 def test_the_printed_table_is_found_implausible_where_it_is(catalogue: Catalogue) -> None:
-    findings = check_catalogue(catalogue)
+    findings = [finding for finding in check_catalogue(catalogue) if "filipovic" in finding.id]
     power = {finding.id[-1]: finding for finding in findings if finding.rule == "rated_power"}
     assert sorted(power) == ["2", "3", "4", "5"]
     assert power["4"].expected == pytest.approx(112.3, abs=0.05)
