@@ -1,6 +1,7 @@
 """What users do: evaluate, rank and simulate actuators, and check the catalogue's figures."""
 
 from actuator_select.model.exceedance import Exceedance
+from actuator_select.selection.catalogue_check import CatalogueCheck, review_catalogue
 from actuator_select.selection.cautions import Warned
 from actuator_select.selection.elastic import ElasticLengths, elastic_lengths
 from actuator_select.selection.plausibility import Finding, check_catalogue, check_rows
@@ -20,6 +21,7 @@ from actuator_select.selection.sweeps import Sweep, sweep_workspace
 from actuator_select.selection.workspaces import WorkspaceResult, evaluate_workspace, workspace_record
 
 __all__ = [
+    "CatalogueCheck",
     "CheckVerdict",
     "ElasticLengths",
     "Exceedance",
@@ -39,6 +41,7 @@ __all__ = [
     "evaluate",
     "evaluate_workspace",
     "rank",
+    "review_catalogue",
     "robot_sheet",
     "rope_tensions",
     "selection_record",
