@@ -76,15 +76,16 @@ def with_assumptions(
     """
     complete = dict(figures)
     taken: list[Assumed] = []
+    complete["direct_current"], reading = _direct_current(row)
+    damped = complete["direct_current"] != 0.0  # friction enters eq. 21 alone
     for figure, found in (
         ("rotor_inertia", _inertia(assumptions)),
-        ("friction", _friction(assumptions)),
+        ("friction", _friction(assumptions) if damped else None),
         ("efficiency", _efficiency(row, assumptions)),
     ):
         if figure not in complete and found is not None:
             complete[figure], assumed = found
             taken.append(assumed)
-    complete["direct_current"], reading = _direct_current(row)
     return complete, (*taken, *reading)
 
 
