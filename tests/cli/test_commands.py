@@ -15,6 +15,7 @@ import pytest
 
 from actuator_select.cli import COMMANDS
 from actuator_select.cli import command as root
+from tests.selection.parts import PRINTED
 
 README = (Path(__file__).parents[2] / "README.md").read_text(encoding="utf-8")
 Run = Callable[..., tuple[int, str, str]]
@@ -126,7 +127,7 @@ def test_json_stands_alone_on_stdout(run: Run) -> None:
 
 
 def test_that_no_actuator_meets_the_requirement_is_a_result(run: Run) -> None:
-    status, out, _ = run("rank", "cpr8", "--require", "100")
+    status, out, _ = run("rank", "cpr8", "--where", PRINTED, "--require", "100")
     assert status == 0
     assert "0 of 5 actuators meet" in out
     status, out, _ = run("rank", "cpr8", "--require", "100", "--only-meeting", "--format", "json")
@@ -135,7 +136,7 @@ def test_that_no_actuator_meets_the_requirement_is_a_result(run: Run) -> None:
 
 
 def test_csv_has_a_row_per_actuator(run: Run) -> None:
-    status, out, _ = run("rank", "cpr8", "--format", "csv")
+    status, out, _ = run("rank", "cpr8-published", "--format", "csv")
     assert status == 0
     lines = out.splitlines()
     assert lines[0].startswith("id,name,verdict,feasible_percent,feasible_poses,poses,speed_state")

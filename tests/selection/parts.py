@@ -2,6 +2,8 @@
 
 from actuator_select import Catalogue
 
+# The five actuators of Table 1 as printed; a shipped catalogue holds others beside them.
+PRINTED = "id in (" + ", ".join(f"'filipovic-kevac-2018-{number}'" for number in range(1, 6)) + ")"
 SOURCE = {"source_id": "filipovic-kevac-2018"}
 WINCH = "filipovic-kevac-2018-winch"
 # Yaskawa SGMAH-02A and the like: an AC servo in its maker's terms.

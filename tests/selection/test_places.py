@@ -13,6 +13,7 @@ from actuator_select.selection import selection_record
 from actuator_select.selection.records import simulation_record
 from actuator_select.selection.workspaces import evaluate_workspace
 from actuator_select.study import Study
+from tests.selection.parts import PRINTED
 from tests.selection.test_selection import add_actuator
 
 ONE = "name = 'Actuator 1'"
@@ -98,7 +99,7 @@ def test_the_connected_share_is_of_what_the_actuator_serves(catalogue: Catalogue
 
 
 def test_the_record_has_what_places_add(catalogue: Catalogue) -> None:
-    record = json.loads(json.dumps(selection_record(rank(study(), catalogue)), allow_nan=False))
+    record = json.loads(json.dumps(selection_record(rank(study(), catalogue, where=PRINTED)), allow_nan=False))
     assert {"attainable_poses", "attainable_percent", "robot_falls_short", "too_near_poses"} <= set(record)
     for one in record["actuators"]:
         assert one["feasible_poses"] <= one["feasible_poses_exact"] <= record["attainable_poses"]

@@ -10,6 +10,7 @@ from actuator_select import Catalogue, evaluate, load_study, open_catalogue, ran
 from actuator_select.errors import InvalidExpression, InvalidInput, NoCandidates, UnknownName
 from actuator_select.model.actuation import Check
 from actuator_select.selection import check_catalogue, check_rows, selection_record
+from tests.selection.parts import PRINTED
 
 
 @pytest.fixture
@@ -109,7 +110,7 @@ def test_the_record_is_strict_json_and_keeps_the_contract(own: Catalogue) -> Non
 
 
 def test_tables_come_out_as_data_frames(catalogue: Catalogue) -> None:
-    selection = rank(load_study("cpr8"), catalogue)
+    selection = rank(load_study("cpr8"), catalogue, where=PRINTED)
     frame = selection.frame()
     assert frame.index[0] == "filipovic-kevac-2018-1"
     assert frame["feasible_poses"].tolist() == [200, 184, 180, 152, 0]
