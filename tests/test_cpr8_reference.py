@@ -4,7 +4,8 @@
 """
 
 import json
-from collections.abc import Mapping
+import re
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -12,11 +13,12 @@ from typing import Any
 import numpy as np
 import pytest
 
-from actuator_select import Catalogue, Selection, Simulation, load_study, rank, simulate
+from actuator_select import Catalogue, Selection, Simulation, load_study, open_catalogue, rank, render_report, simulate
 from actuator_select.model.actuation import Check
 from actuator_select.model.evaluation import evaluate_actuators
 from actuator_select.selection.candidates import find_candidates
 from actuator_select.study import Study
+from tests.selection.parts import PRINTED, add_twins
 
 REFERENCE = json.loads((Path(__file__).parent / "reference" / "cpr8.json").read_text(encoding="utf-8"))
 PUBLISHED, COMPUTED = REFERENCE["published"], REFERENCE["computed"]
@@ -53,7 +55,7 @@ def test_the_study_is_the_one_of_the_reference(catalogue: Catalogue) -> None:
     assert study.table.motion.speed_max_m_per_s == reference["speed_max_m_per_s"]
     assert study.table.motion.acceleration_time_s == reference["acceleration_time_s"]
     assert study.table.motion.deceleration_time_s == reference["deceleration_time_s"]
-    assert len(catalogue.rows("actuators", where="source_location = 'Table 1'")) == 5
+    assert len(catalogue.rows("actuators", where=PRINTED)) == 5
 
 
 def test_the_published_reading_gives_table_2_but_for_actuator_5(catalogue: Catalogue) -> None:
@@ -170,3 +172,50 @@ def test_the_move_of_figure_6(catalogue: Catalogue, angle: float, key: str) -> N
 
 def largest(run: Simulation, check: Check) -> float:
     return float(run.peaks[check].max())
+
+
+@pytest.fixture
+def with_twins() -> Iterator[tuple[Catalogue, list[str]]]:
+    """The catalogue with the real motors of actuators 4 and 5 beside the printed rows, and the ids of these twins."""
+    with open_catalogue(":memory:") as own:
+        yield own, add_twins(own)
+
+
+def test_the_twin_of_actuator_4_holds_the_torque_of_its_real_motor(with_twins: tuple[Catalogue, list[str]]) -> None:
+    catalogue, (twin, _) = with_twins
+    expected = COMPUTED["actuator_4_with_its_rated_torque"]["torque_test_only_0_rad_at_0.0455"]
+    motion = {"candidates.where": f"id = '{twin}'", "checks.apply": ["torque"]}
+    moving = "accelerations {-V/t, V/t} per axis"
+    assert ranked(catalogue, "cpr8-published", motion, BOTH_SIGNS).ranked[0].feasible_poses == expected[moving] == 68
+    at_rest = {"motion": {"set": "rest"}}
+    assert ranked(catalogue, "cpr8-published", motion, at_rest).ranked[0].feasible_poses == expected["at_rest"]
+
+
+def test_the_published_study_ranks_the_printed_rows_alone(with_twins: tuple[Catalogue, list[str]]) -> None:
+    catalogue, twins = with_twins
+    selection = ranked(catalogue, "cpr8-published")
+    assert sorted(one.id[-1] for one in selection.ranked) == list("12345")
+    assert counts(selection) == [216, 208, 184, 188, 0]
+    everything = {one.id for one in ranked(catalogue, "cpr8").ranked}
+    assert everything >= {*twins, *(one.id for one in selection.ranked)}
+
+
+def test_twins_stand_beside_the_printed_rows_and_not_in_the_comparison(
+    with_twins: tuple[Catalogue, list[str]],
+) -> None:
+    catalogue, twins = with_twins
+    selection = rank(load_study("cpr8"), catalogue, where="id contains 'filipovic-kevac-2018'")
+    by_id = {one.id: one for one in selection.ranked}
+    assert by_id[twins[0]].verdict == by_id[twins[1]].verdict == "fails"
+    assert [one.key for one in by_id[twins[0]].assumptions] == ["assumptions.viscous_friction_nm_s_per_rad"]
+    assert by_id["filipovic-kevac-2018-4"].assumptions == ()
+    page = render_report(selection, catalogue)
+    section = page[page.index("The same study, read otherwise") : page.index("<h2>Parts and sources")]
+    compared, others = section.split("Actuators that the publication does not have")
+    assert re.findall(r'<th class="name">(.*?)</th>', compared) == [f"Actuator {number}" for number in range(1, 6)]
+    assert re.findall(r"([\d.]+) %</td>", compared[compared.index("Published:") :]) == [
+        f"{percent:g}" for percent in PUBLISHED["feasible_percent"].values()
+    ]
+    assert "Actuator 4 (maxon 236662)" in others
+    assert "Published:" not in others
+    assert "Printed actuators and real parts" in page

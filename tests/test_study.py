@@ -14,6 +14,7 @@ from actuator_select.model.motion import MotionKind
 from actuator_select.model.robot import Freedom
 from actuator_select.model.tension import TensionModel
 from actuator_select.study import (
+    TEMPLATES,
     builtin_studies,
     load_study,
     parse_overrides,
@@ -96,6 +97,28 @@ def test_the_starter_study_works_as_it_stands() -> None:
         ("motion.velocity_intervals", 6, 'expected set = "sampled" where velocity_intervals is given'),
         ("motion.sped_max_m_per_s", 1.0, "did you mean 'speed_max_m_per_s'"),
         ("gravity", 9.81, "did you mean 'gravity_m_per_s2'"),
+        (
+            "assumptions.gearbox_efficiency_of_maximum",
+            1.1,
+            "assumptions.gearbox_efficiency_of_maximum: 1.1, expected at most 1",
+        ),
+        (
+            "assumptions.gearbox_efficiency_of_maximum",
+            0.0,
+            "gearbox_efficiency_of_maximum: 0.0, expected at least 1e-06",
+        ),
+        (
+            "assumptions.gearbox_efficiency_percent",
+            101,
+            "assumptions.gearbox_efficiency_percent: 101, expected at most 100 [per cent, 0 to 100]",
+        ),
+        (
+            "assumptions.viscous_friction_nm_s_per_rad",
+            -1.0,
+            "assumptions.viscous_friction_nm_s_per_rad: -1.0, expected at least 0 [N m s/rad]",
+        ),
+        ("assumptions.rotor_inertia_g_cm2", -1.0, "assumptions.rotor_inertia_g_cm2: -1.0, expected at least 0 [g cm²]"),
+        ("assumptions.rated_torque_nm", 1.0, "assumptions.rated_torque_nm: is not a key of a study"),
     ],
 )
 def test_a_bad_value_is_named_with_key_value_expectation_and_unit(key: str, value: object, expected: str) -> None:
@@ -213,3 +236,21 @@ def test_a_grid_position_in_an_anchor_is_refused_unless_a_least_length_is_stated
         parse_study(text, place="corner", overrides=corner)
     stated = parse_study(text, place="corner", overrides=corner | {"cables": {"length_min_m": 0.05}})
     assert len(stated.positions) == 8
+
+
+def test_assumptions_are_set_like_any_key_and_are_none_by_default() -> None:
+    assert not load_study("cpr8-published").table.assumptions.model_fields_set
+    assert load_study("cpr8").table.assumptions.viscous_friction_nm_s_per_rad == 0.0
+    given = parse_overrides(["assumptions.rotor_inertia_g_cm2=120", "assumptions.gearbox_efficiency_of_maximum=0.8"])
+    assumptions = load_study("cpr8-published", given).table.assumptions
+    assert (assumptions.rotor_inertia_g_cm2, assumptions.gearbox_efficiency_of_maximum) == (120.0, 0.8)
+    assert assumptions.gearbox_efficiency_percent is None
+
+
+@pytest.mark.parametrize("template", [name for name in TEMPLATES if name != "anchors"])
+def test_new_studies_name_what_they_assume(template: str) -> None:
+    assumptions = parse_study(template_text("new", template), place="new").table.assumptions
+    assert assumptions.model_dump(exclude_none=True) == {
+        "viscous_friction_nm_s_per_rad": 0.0,
+        "gearbox_efficiency_of_maximum": 0.9,
+    }

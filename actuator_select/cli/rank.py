@@ -80,10 +80,12 @@ def print_ranking(selection: "Selection", *, only_meeting: bool) -> None:
     """Print the answer in three lines, what the percentage is of, the table, and the warnings."""
     from actuator_select.selection.wording import (
         actuator_count,
+        assumption_notes,
         check_cell,
+        check_notes,
         heading,
         limited_by,
-        missing_notes,
+        marked,
         share,
         summary,
     )
@@ -100,7 +102,7 @@ def print_ranking(selection: "Selection", *, only_meeting: bool) -> None:
         rows.append(
             [
                 str(place),
-                actuator.name,
+                marked(actuator),
                 actuator.verdict.value,
                 share(actuator, selection.poses),
                 *(check_cell(actuator.checks[check], selection.poses) for check in checks),
@@ -109,8 +111,10 @@ def print_ranking(selection: "Selection", *, only_meeting: bool) -> None:
         )
     if rows:
         console.emit_table(header, rows, right=range(3, 4 + len(checks)))
-        for note in missing_notes(actuators):
+        for note in check_notes(actuators):
             click.echo(note)
+        for note in assumption_notes(actuators):
+            click.echo(f"* Assumed: {note}")
         click.echo(
             "Each check: positions that this limit alone allows, worst demand / limit over the whole motion set."
         )
@@ -126,9 +130,12 @@ def print_ranking(selection: "Selection", *, only_meeting: bool) -> None:
 
 
 def _emit_csv(selection: "Selection", *, only_meeting: bool) -> None:
+    from actuator_select.selection.wording import assumed_words
+
     checks = list(selection.study.checks)
     header = ["id", "name", "verdict", "feasible_percent", "feasible_poses", "poses"]
     header += [f"{check.value}_{what}" for check in checks for what in ("state", "poses", "worst_utilisation")]
+    header.append("assumptions")
     rows = []
     for actuator in selection.shown(only_meeting=only_meeting):
         row: list[object] = [
@@ -142,6 +149,7 @@ def _emit_csv(selection: "Selection", *, only_meeting: bool) -> None:
         for check in checks:
             verdict = actuator.checks[check]
             row += [verdict.state.value, verdict.poses, verdict.worst_utilisation]
+        row.append("; ".join(assumed_words([one]) for one in actuator.assumptions))
         rows.append(row)
     console.emit_csv(header, rows)
 

@@ -96,25 +96,27 @@ def command(
 
 def print_simulation(run: "Simulation") -> None:
     """Print the peaks per actuator, what exceeds which limit when, and warnings."""
-    from actuator_select.model.actuation import Check
     from actuator_select.selection.simulation import UNITS
     from actuator_select.selection.wording import (
+        assumed_words,
         exceedance_words,
-        missing_words,
+        inapplicable_words,
         move_words,
         pushing_words,
         unheld_words,
+        unknown_words,
     )
 
     click.echo(move_words(run))
-    header = ["actuator", *(f"|{check.value}| [{UNITS[check]}]" for check in Check)]
+    header = ["actuator", *(f"|{check.value}| [{UNITS[check]}]" for check in run.checks)]
     rows = [
-        [str(cable + 1), *(_cell(run.peaks[check][cable]) for check in Check)]
+        [str(cable + 1), *(_cell(run.peaks[check][cable]) for check in run.checks)]
         for cable in range(run.study.robot.cables)
     ]
-    rows.append(["limit", *(_cell(run.limits[check]) for check in Check)])
-    console.emit_table(header, rows, right=range(1, 5))
-    click.echo("Largest magnitudes at the shaft behind the gearbox (voltage at the motor's terminals).")
+    rows.append(["limit", *(_cell(run.limits[check]) for check in run.checks)])
+    console.emit_table(header, rows, right=range(1, 1 + len(run.checks)))
+    terminals = "" if run.not_applicable else " (voltage at the motor's terminals)"
+    click.echo(f"Largest magnitudes at the shaft behind the gearbox{terminals}.")
     for text in unheld_words(run):
         click.echo(f"  {text}")
     if run.exceedances:
@@ -124,7 +126,11 @@ def print_simulation(run: "Simulation") -> None:
         pushing = ", if its cables could push" if run.pushing else ""
         click.echo(f"Every limit holds over the whole move{pushing}.")
     for check, missing in run.missing.items():
-        click.echo(f"  {check.value} not evaluated: {missing_words(missing)} unknown")
+        click.echo(f"  {check.value} not evaluated: {unknown_words(missing)}")
+    for check, reason in run.not_applicable.items():
+        click.echo(f"  {inapplicable_words(check, reason)}")
+    for assumed in run.candidates.assumed[0]:
+        click.echo(f"  assumed: {assumed_words([assumed])}")
     if run.pushing:
         console.warn(pushing_words(run))
     for warning in run.glossed_over:

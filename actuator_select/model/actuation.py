@@ -13,7 +13,7 @@ from enum import StrEnum
 
 import numpy as np
 
-from actuator_select.model.arrays import FloatArray, IntArray
+from actuator_select.model.arrays import BoolArray, FloatArray, IntArray
 from actuator_select.model.components import ActuatorSet
 
 
@@ -33,6 +33,7 @@ FIGURES_NEEDED: dict[Check, tuple[str, ...]] = {
     Check.TORQUE: ("motor_torque", "ratio", "efficiency", "drum_radius"),
     Check.ACCELERATION: ("motor_torque", "rotor_inertia", "ratio", "drum_radius"),
     Check.VOLTAGE: (
+        "direct_current",
         "voltage",
         "back_emf_constant",
         "torque_constant",
@@ -44,6 +45,13 @@ FIGURES_NEEDED: dict[Check, tuple[str, ...]] = {
         "drum_radius",
     ),
 }
+
+
+def is_applicable(actuators: ActuatorSet, check: Check) -> BoolArray:
+    """Tell to which actuators a check applies, (C,): eq. 34 to those whose electrical figures are DC, or unknown."""
+    if check is Check.VOLTAGE:
+        return np.asarray(actuators.direct_current != 0.0, dtype=np.bool_)
+    return np.ones(len(actuators), dtype=np.bool_)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -125,6 +133,11 @@ def cable_acceleration_limit(actuators: ActuatorSet) -> FloatArray:
         return actuators.motor_torque / inertia * actuators.drum_radius
 
 
+def voltage_limit(actuators: ActuatorSet) -> FloatArray:
+    """Greatest terminal voltage, (C,), eq. 34; NaN where unknown, and where the figures are not known to be DC. [V]"""
+    return np.where(actuators.direct_current == 1.0, actuators.voltage, np.nan)
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class VoltageLine:
     """A limit that falls with speed and acceleration: force + reflected_mass · s + damping · v within ±force_limit.
@@ -165,14 +178,14 @@ def voltage_line(actuators: ActuatorSet) -> VoltageLine:
     Returns
     -------
     VoltageLine
-        NaN where a figure is unknown.
+        NaN where a figure is unknown or the voltage has no limit that is known to be DC.
     """
     shaft = shaft_characteristics(actuators)
     radius = actuators.drum_radius
     return VoltageLine(
         reflected_mass=shaft.inertia / radius**2,
         damping=shaft.damping_gain / (shaft.load_gain * radius**2),
-        force_limit=actuators.voltage / (shaft.load_gain * radius),
+        force_limit=voltage_limit(actuators) / (shaft.load_gain * radius),
     )
 
 

@@ -1,7 +1,7 @@
 """Actuators as the model sees them: motor, gearbox and winch in SI units, one array per figure."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, field, fields
 
 import numpy as np
 
@@ -36,6 +36,10 @@ class ActuatorSet:
         Efficiency ξ of the assembly.
     drum_radius : (C,) array
         Winding radius R_w. [m]
+    direct_current : (C,) array
+        1 where voltage, resistance and constants are DC values between the motor's terminals, so that eq. 21 holds; 0
+        where they are not (rms phase values, built-in electronics), so that nothing can be said about a voltage; NaN
+        where that is unknown. A single number stands for all; 1 by default.
     """
 
     motor_speed: FloatArray
@@ -49,22 +53,27 @@ class ActuatorSet:
     ratio: FloatArray
     efficiency: FloatArray
     drum_radius: FloatArray
+    direct_current: FloatArray = field(default_factory=lambda: np.array(1.0))
 
     def __post_init__(self) -> None:
         count = np.shape(self.motor_speed)
-        for field in fields(self):
-            values = np.array(getattr(self, field.name), dtype=np.float64)
+        if np.ndim(self.direct_current) == 0 and len(count) == 1:
+            object.__setattr__(self, "direct_current", np.full(count, self.direct_current))
+        for one in fields(self):
+            values = np.array(getattr(self, one.name), dtype=np.float64)
             if values.shape != count or values.ndim != 1:
-                raise ValueError(f"{field.name} has shape {values.shape} but motor_speed has {count}, expected (C,)")
+                raise ValueError(f"{one.name} has shape {values.shape} but motor_speed has {count}, expected (C,)")
             values.flags.writeable = False
-            object.__setattr__(self, field.name, values)
+            object.__setattr__(self, one.name, values)
+        if not np.isin(self.direct_current[~np.isnan(self.direct_current)], (0.0, 1.0)).all():
+            raise ValueError(f"direct_current is {self.direct_current}, expected 1, 0 or NaN")
 
     def __len__(self) -> int:
         return len(self.motor_speed)
 
     @classmethod
     def from_figures(cls, figures: Sequence[Mapping[str, float]]) -> "ActuatorSet":
-        """Gather one mapping of figures per actuator; a figure that a mapping lacks is unknown.
+        """Gather one mapping of figures per actuator; a figure that a mapping lacks is unknown, `direct_current` 1.
 
         Parameters
         ----------
@@ -78,12 +87,12 @@ class ActuatorSet:
         """
         return cls(
             **{
-                field.name: np.array([one.get(field.name, np.nan) for one in figures], dtype=np.float64)
-                for field in fields(cls)
+                name: np.array([one.get(name, 1.0 if name == "direct_current" else np.nan) for one in figures])
+                for name in (figure.name for figure in fields(cls))
             }
         )
 
     def take(self, indices: Sequence[int] | IntArray) -> "ActuatorSet":
         """Actuators at `indices`, in that order."""
         chosen = np.asarray(indices, dtype=np.int64)
-        return ActuatorSet(**{field.name: getattr(self, field.name)[chosen] for field in fields(self)})
+        return ActuatorSet(**{one.name: getattr(self, one.name)[chosen] for one in fields(self)})

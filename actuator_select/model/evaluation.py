@@ -17,6 +17,7 @@ from actuator_select.model.actuation import (
     cable_acceleration_limit,
     cable_force_limit,
     cable_speed_limit,
+    is_applicable,
     torque_line,
     utilisation,
     voltage_line,
@@ -28,6 +29,7 @@ from actuator_select.model.tension import TensionModel
 from actuator_select.model.voltage import voltage_demand
 from actuator_select.model.voltage_count import VoltageCounter
 
+STATED_AS = {"direct_current": "electrical_convention"}
 CELLS_AT_ONCE = 1 << 25  # (actuator, position) pairs in one chunk: 32 MiB of verdicts
 
 
@@ -37,8 +39,10 @@ class CheckCount:
 
     Attributes
     ----------
+    applicable : (C,) array of bool
+        False where the check says nothing about this actuator, whatever its figures.
     evaluated : (C,) array of bool
-        False where a figure that the check needs is unknown.
+        False where the check does not apply, or a figure that it needs is unknown.
     positions : (C,) array
         Positions at which this limit alone holds at every orientation; -1 where not evaluated.
     worst_utilisation : (C,) array
@@ -48,10 +52,16 @@ class CheckCount:
         Index of the position where that is; -1 where there is none.
     """
 
+    applicable: BoolArray
     evaluated: BoolArray
     positions: IntArray
     worst_utilisation: FloatArray
     worst_position: IntArray
+
+    @property
+    def is_open(self) -> BoolArray:
+        """Actuators that the check applies to and whose figures do not allow it, (C,)."""
+        return self.applicable & ~self.evaluated
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -67,7 +77,8 @@ class Evaluation:
     checks : mapping of Check to CheckCount
         The checks that were asked for.
     positions : (C,) array
-        Positions at which every evaluated check holds in every case. Under a model with bounded tensions this is the
+        Positions at which every evaluated check holds in every case; an open check and one that does not apply exclude
+        none. Under a model with bounded tensions this is the
         safe rule: one constant limit for all cables, the least that speed and acceleration leave, so that
         the true count is no smaller.
     """
@@ -77,13 +88,35 @@ class Evaluation:
     checks: Mapping[Check, CheckCount]
     positions: IntArray
 
+    @property
+    def open_checks(self) -> IntArray:
+        """Number of checks that apply and could not be evaluated, (C,)."""
+        return self._number(lambda count: count.is_open)
+
+    @property
+    def decided(self) -> BoolArray:
+        """Actuators with an evaluated check and no open one, (C,): their positions are not only an upper bound."""
+        decided: BoolArray = (self.open_checks == 0) & (self._number(lambda count: count.evaluated) > 0)
+        return decided
+
+    def _number(self, which: Callable[[CheckCount], BoolArray]) -> IntArray:
+        number = np.zeros(len(self.actuators), dtype=np.int64)
+        for count in self.checks.values():
+            number += which(count)
+        return number
+
 
 def missing_figures(actuators: ActuatorSet, check: Check, model: TensionModel) -> list[tuple[str, ...]]:
-    """Figures that `check` needs under a tension model and an actuator lacks, one tuple per actuator."""
+    """Figures that `check` needs under a tension model and an actuator lacks, one tuple per actuator.
+
+    Empty where the check does not apply. Unknown `direct_current` is called by what has to be stated,
+    ``electrical_convention``.
+    """
     needed = FIGURES_NEEDED[check]
     if check is Check.ACCELERATION and not model.lets_cables_push:  # of load and rotor together
         needed = tuple(dict.fromkeys(FIGURES_NEEDED[Check.TORQUE] + needed))
-    unknown = {name: np.isnan(getattr(actuators, name)) for name in needed}
+    applies = is_applicable(actuators, check)
+    unknown = {STATED_AS.get(name, name): np.isnan(getattr(actuators, name)) & applies for name in needed}
     return [tuple(name for name, missing in unknown.items() if missing[index]) for index in range(len(actuators))]
 
 
@@ -110,7 +143,7 @@ def evaluate_actuators(
     """
     lines = {check: line(actuators) for check, line in coupled_limits(demand).items() if check in checks}
     scalar = [_scalar_check(demand, actuators, check) for check in checks if check not in lines]
-    counts = {one.check: one.count() for one in scalar}
+    counts = {one.check: one.count(is_applicable(actuators, one.check)) for one in scalar}
     rows = voltage_demand(demand) if lines else None
     counters = {check: VoltageCounter(rows, line, ROUNDING) for check, line in lines.items() if rows is not None}
     positions, attainable = len(demand.positions), demand.attainable_positions
@@ -129,6 +162,7 @@ def evaluate_actuators(
             progress(start + len(chunk), positions)
     for check, counter in counters.items():
         counts[check] = CheckCount(
+            applicable=is_applicable(actuators, check),
             evaluated=counter.evaluated,
             positions=counter.alone,
             worst_utilisation=counter.worst_utilisation,
@@ -154,7 +188,7 @@ def position_utilisation(demand: Demand, actuators: ActuatorSet, checks: Sequenc
     Returns
     -------
     dict of Check to (C, P) array
-        Greatest utilisation over cables and orientations; NaN where a figure is unknown.
+        Greatest utilisation over cables and orientations; NaN where a figure is unknown or the check does not apply.
     """
     result: dict[Check, FloatArray] = {}
     lines = {check: line for check, line in coupled_limits(demand).items() if check in checks}
@@ -194,7 +228,7 @@ class _ScalarCheck:
         holds: BoolArray = demand <= limit[:, None]
         return holds & np.isfinite(demand)
 
-    def count(self) -> CheckCount:
+    def count(self, applicable: BoolArray) -> CheckCount:
         evaluated = ~np.isnan(self.limit)
         finite = np.sort(self.demand[np.isfinite(self.demand)])
         positions = np.searchsorted(finite, self.limit * (1.0 + ROUNDING), side="right")
@@ -202,6 +236,7 @@ class _ScalarCheck:
         worst = int(reachable.argmax())
         found = bool(np.isfinite(reachable[worst]))
         return CheckCount(
+            applicable=applicable,
             evaluated=evaluated,
             positions=np.where(evaluated, positions, -1),
             worst_utilisation=utilisation(self.demand[worst], self.limit),

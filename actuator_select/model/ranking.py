@@ -42,8 +42,9 @@ def required_positions(total: int, required_percent: float) -> int:
 def verdicts(evaluation: Evaluation, required_percent: float, served: list[bool | None] | None = None) -> list[Verdict]:
     """Judge every actuator.
 
-    An actuator with a check that could not be evaluated is at best undecided; it fails only if the checks that could
-    be evaluated exclude too many positions already.
+    An actuator with a check that could not be evaluated, or to which none applies, is at best undecided; it fails only
+    if the checks that could be evaluated exclude too many positions already. A check that does not apply to it counts
+    for nothing.
 
     Parameters
     ----------
@@ -60,24 +61,16 @@ def verdicts(evaluation: Evaluation, required_percent: float, served: list[bool 
         One per actuator.
     """
     enough = meets_share(evaluation.positions, len(evaluation.demand.positions), required_percent)
-    unknown = not_evaluated(evaluation) > 0
+    decided = evaluation.decided
     places: list[bool | None] = [True] * len(enough) if served is None else served
     return [
         Verdict.FAILS
         if not reached or place is False
         else Verdict.UNDECIDED
-        if open_check or place is None
+        if not known or place is None
         else Verdict.MEETS
-        for reached, open_check, place in zip(enough, unknown, places, strict=True)
+        for reached, known, place in zip(enough, decided, places, strict=True)
     ]
-
-
-def not_evaluated(evaluation: Evaluation) -> IntArray:
-    """Number of checks that could not be evaluated, (C,)."""
-    open_checks = np.zeros(len(evaluation.actuators), dtype=np.int64)
-    for count in evaluation.checks.values():
-        open_checks += ~count.evaluated
-    return open_checks
 
 
 def worst_utilisation(evaluation: Evaluation) -> FloatArray:
@@ -89,6 +82,8 @@ def worst_utilisation(evaluation: Evaluation) -> FloatArray:
 
 def ranking_order(evaluation: Evaluation, verdict: list[Verdict]) -> IntArray:
     """Order by verdict, feasible share, fewest checks not evaluated, smallest worst utilisation.
+
+    Checks that do not apply are no checks that were not evaluated.
 
     Parameters
     ----------
@@ -105,6 +100,6 @@ def ranking_order(evaluation: Evaluation, verdict: list[Verdict]) -> IntArray:
     place = {verdict: index for index, verdict in enumerate(Verdict)}
     standing = np.array([place[one] for one in verdict], dtype=np.int64)
     order: IntArray = np.lexsort(
-        (worst_utilisation(evaluation), not_evaluated(evaluation), -evaluation.positions, standing)
+        (worst_utilisation(evaluation), evaluation.open_checks, -evaluation.positions, standing)
     )
     return order

@@ -10,6 +10,7 @@ from actuator_select.model.actuation import (
     cable_force_limit,
     cable_speed_limit,
     shaft_characteristics,
+    voltage_limit,
 )
 from actuator_select.model.arrays import BoolArray, FloatArray, IntArray
 from actuator_select.model.components import ActuatorSet
@@ -185,7 +186,7 @@ def shaft_limits(actuator: ActuatorSet) -> dict[Check, float]:
         Check.SPEED: float((cable_speed_limit(actuator) / radius)[0]),
         Check.TORQUE: float((cable_force_limit(actuator) * radius)[0]),
         Check.ACCELERATION: float((cable_acceleration_limit(actuator) / radius)[0]),
-        Check.VOLTAGE: float(actuator.voltage[0]),
+        Check.VOLTAGE: float(voltage_limit(actuator)[0]),
     }
 
 
@@ -224,7 +225,7 @@ class DrivenMove:
         Returns
         -------
         DriveHistory
-            NaN where a figure is unknown.
+            NaN where a figure is unknown; the voltage also where it is not known to be that of a DC motor.
 
         References
         ----------
@@ -253,6 +254,9 @@ class DrivenMove:
         radius = float(actuator.drum_radius[0])
         shaft_speed, shaft_acceleration, torque = cable_speed / radius, cable_acceleration / radius, tension * radius
         shaft = shaft_characteristics(actuator)
+        voltage = (  # eq. 21
+            shaft.inertia_gain * shaft_acceleration + shaft.damping_gain * shaft_speed + shaft.load_gain * torque
+        )
         return DriveHistory(
             times=times,
             phases=phases,
@@ -263,9 +267,7 @@ class DrivenMove:
             rank_deficient=shared.rank_deficient,
             unbalanced=shared.unbalanced,
             infeasible=infeasible,
-            voltage=shaft.inertia_gain * shaft_acceleration
-            + shaft.damping_gain * shaft_speed
-            + shaft.load_gain * torque,  # eq. 21
+            voltage=voltage if actuator.direct_current[0] == 1.0 else np.full_like(voltage, np.nan),
         )
 
 

@@ -15,7 +15,7 @@ from matplotlib.figure import Figure
 from actuator_select.database import Catalogue
 from actuator_select.model.ranking import State, Verdict
 from actuator_select.model.tension import TensionModel
-from actuator_select.report.drive_figures import simulation_figure, torque_speed_plane
+from actuator_select.report.drive_figures import plane_caption, simulation_figure, torque_speed_plane
 from actuator_select.report.margin_figures import margin_slices, tension_slices
 from actuator_select.report.robot_figure import robot_figure
 from actuator_select.report.style import data_uri
@@ -94,6 +94,8 @@ def render_report(selection: Selection, catalogue: Catalogue, details: ReportDet
             words=wording,
             shortlist=shortlist(selection),
             pushing=_pushing(selection),
+            assumed=wording.assumption_notes(dossier.shown),
+            compared=_compared(selection),
             reasons=reasons_why_nothing_holds(selection.study, selection.attainable_poses),
             apart=len(selection.study.positions) - selection.poses,
             margin_note=margin_words(selection.study),
@@ -163,6 +165,13 @@ def shortlist(selection: Selection) -> tuple[RankedActuator, ...]:
     return (meeting or selection.ranked)[:SHORTLIST]
 
 
+def _compared(selection: Selection) -> tuple[RankedActuator, ...]:
+    """Actuators that the study gives published percentages of, in its order."""
+    published = selection.study.table.published
+    ranked = {actuator.id: actuator for actuator in selection.ranked}
+    return tuple(ranked[one] for one in (published.feasible_percent if published else ()) if one in ranked)
+
+
 def _images(dossier: Dossier) -> dict[str, Any]:
     study = dossier.selection.study
     leading = dossier.details[0]
@@ -185,7 +194,10 @@ def _images(dossier: Dossier) -> dict[str, Any]:
         "slices": [
             (detail, image(slice_panels(study, detail), "svg")) for detail in dossier.details[:PLANES] if detail.checks
         ],
-        "planes": [(detail, image(torque_speed_plane(detail), "svg")) for detail in dossier.details[:PLANES]],
+        "planes": [
+            (detail, image(torque_speed_plane(detail), "svg"), plane_caption(detail))
+            for detail in dossier.details[:PLANES]
+        ],
         "moves": [image(simulation_figure(run), "svg") for _, run in dossier.moves],
         "leading": leading.actuator.name,
     }

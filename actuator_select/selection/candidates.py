@@ -1,16 +1,15 @@
 """From catalogue rows to the model's actuators: the one place where datasheet units become SI."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 from actuator_select.database import Catalogue
 from actuator_select.errors import NoCandidates, UnknownName, did_you_mean
 from actuator_select.model.components import ActuatorSet
+from actuator_select.selection.assumptions import Assumed, Row, with_assumptions
 from actuator_select.study import Study
+from actuator_select.study.schema import AssumptionsTable
 from actuator_select.units import fraction, kg_m2, metres, rad_per_s
-
-Row = Mapping[str, Any]
 
 
 def _as_printed(value: float) -> float:
@@ -41,10 +40,13 @@ class Candidates:
         Catalogue rows with the joined columns, units as in the column names.
     actuators : ActuatorSet
         The same in SI units, NaN where unknown.
+    assumed : tuple of tuple of Assumed
+        For every actuator, the figures that the catalogue does not state and that were taken all the same.
     """
 
     rows: tuple[Row, ...]
     actuators: ActuatorSet
+    assumed: tuple[tuple[Assumed, ...], ...]
 
     @property
     def ids(self) -> list[str]:
@@ -56,21 +58,35 @@ class Candidates:
         """Names for people."""
         return [str(row["name"]) for row in self.rows]
 
+    def single(self, index: int) -> "Candidates":
+        """One of them alone."""
+        return Candidates(
+            rows=(self.rows[index],), actuators=self.actuators.take([index]), assumed=(self.assumed[index],)
+        )
 
-def from_rows(rows: Sequence[Row]) -> Candidates:
+
+def from_rows(rows: Sequence[Row], assumptions: AssumptionsTable | None = None) -> Candidates:
     """Convert catalogue rows.
 
     Parameters
     ----------
     rows : sequence of mapping
         Rows of ``actuators`` with their joined columns.
+    assumptions : AssumptionsTable, optional
+        What stands for figures that the rows do not state; nothing by default.
 
     Returns
     -------
     Candidates
         In the order given.
     """
-    return Candidates(rows=tuple(rows), actuators=ActuatorSet.from_figures([_figures(row) for row in rows]))
+    stated = AssumptionsTable() if assumptions is None else assumptions
+    complete = [with_assumptions(row, _figures(row), stated) for row in rows]
+    return Candidates(
+        rows=tuple(rows),
+        actuators=ActuatorSet.from_figures([figures for figures, _ in complete]),
+        assumed=tuple(taken for _, taken in complete),
+    )
 
 
 def find_candidates(study: Study, catalogue: Catalogue, where: str = "") -> Candidates:
@@ -79,7 +95,7 @@ def find_candidates(study: Study, catalogue: Catalogue, where: str = "") -> Cand
     Parameters
     ----------
     study : Study
-        Its ``candidates.where`` applies.
+        Its ``candidates.where`` and its ``[assumptions]`` apply.
     catalogue : Catalogue
         Where the actuators are.
     where : str, optional
@@ -115,10 +131,10 @@ def find_candidates(study: Study, catalogue: Catalogue, where: str = "") -> Cand
             if conditions
             else "the catalogue holds no actuator; `actuator-select catalog add actuators` adds one"
         )
-    return from_rows(rows)
+    return from_rows(rows, study.table.assumptions)
 
 
-def find_actuator(catalogue: Catalogue, actuator: str) -> Candidates:
+def find_actuator(catalogue: Catalogue, actuator: str, assumptions: AssumptionsTable | None = None) -> Candidates:
     """One actuator by its id or its name.
 
     Parameters
@@ -127,6 +143,8 @@ def find_actuator(catalogue: Catalogue, actuator: str) -> Candidates:
         Where to look.
     actuator : str
         Id, or name in any case.
+    assumptions : AssumptionsTable, optional
+        As for `from_rows`.
 
     Returns
     -------
@@ -141,7 +159,7 @@ def find_actuator(catalogue: Catalogue, actuator: str) -> Candidates:
     rows = catalogue.rows("actuators")
     by_id = [row for row in rows if actuator == row["id"]]
     for row in by_id or [row for row in rows if actuator.casefold() == str(row["name"]).casefold()]:
-        return from_rows([row])
+        return from_rows([row], assumptions)
     known = [str(row[key]) for row in rows for key in ("name", "id")]
     raise UnknownName(
         f"no actuator {actuator!r} in the catalogue; {did_you_mean(actuator, known)} "
@@ -153,6 +171,8 @@ def _figures(row: Row) -> dict[str, float]:
     figures = {
         figure: convert(float(row[column])) for figure, column, convert in FIGURE_COLUMNS if row.get(column) is not None
     }
+    if "back_emf_constant" not in figures and row.get("motor.speed_constant_rpm_per_v") is not None:
+        figures["back_emf_constant"] = 1.0 / rad_per_s(float(row["motor.speed_constant_rpm_per_v"]))
     return figures | _transmission(row)
 
 

@@ -1,7 +1,7 @@
 """All that a report shows beyond the ranking: where and why actuators fail, variants, moves, parts and sources."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -13,7 +13,8 @@ from actuator_select.model.components import ActuatorSet
 from actuator_select.model.drive_cloud import DriveCloud, drive_cloud
 from actuator_select.model.evaluation import position_utilisation
 from actuator_select.model.ranking import Verdict, required_positions
-from actuator_select.selection.candidates import Candidates
+from actuator_select.selection.assumptions import Assumed, why_no_voltage
+from actuator_select.selection.candidates import from_rows
 from actuator_select.selection.models import ModelCount, compare_models
 from actuator_select.selection.plausibility import Finding, check_rows
 from actuator_select.selection.selection import (
@@ -24,7 +25,7 @@ from actuator_select.selection.selection import (
 )
 from actuator_select.selection.simulation import Simulation, simulate_candidate
 from actuator_select.study import Study, Variant
-from actuator_select.units import rpm
+from actuator_select.units import rad_per_s, rpm
 
 SHOWN = 100  # actuators that are listed and explained; a longer ranking belongs in CSV
 DETAILED = 6  # actuators that get pictures
@@ -86,6 +87,10 @@ class ActuatorDetail:
         Operating points at the motor.
     figures : ActuatorSet
         The actuator itself.
+    peak_torque, greatest_speed : float
+        The maker's limits of the motor for a short time; NaN unknown, infinite unlimited. [N m, rad/s]
+    why_no_voltage : str
+        What the motor's electrical figures are, where the voltage check does not apply to them.
     """
 
     actuator: RankedActuator
@@ -96,6 +101,9 @@ class ActuatorDetail:
     attainable: BoolArray
     cloud: DriveCloud
     figures: ActuatorSet
+    peak_torque: float
+    greatest_speed: float
+    why_no_voltage: str
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -135,6 +143,8 @@ class Part:
         The document that states them.
     findings : tuple of Finding
         Its plausibility findings.
+    assumed : tuple of Assumed
+        What was taken for figures that it does not state.
     """
 
     kind: str
@@ -142,6 +152,7 @@ class Part:
     figures: Mapping[str, Any]
     source: Mapping[str, Any]
     findings: tuple[Finding, ...]
+    assumed: tuple[Assumed, ...]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -239,6 +250,7 @@ def _detail(selection: Selection, actuator: RankedActuator) -> ActuatorDetail:
     figures = evaluation.actuators.take([actuator.index])
     worst = np.array([evaluation.checks[check].worst_position[actuator.index] for check in checks], dtype=np.int64)
     result, attainable = selection.result, evaluation.demand.attainable_positions
+    row = result.candidates.rows[actuator.index]
     feasible = (utilisation <= 1.0 + ROUNDING) & attainable
     return ActuatorDetail(
         actuator=actuator,
@@ -249,7 +261,14 @@ def _detail(selection: Selection, actuator: RankedActuator) -> ActuatorDetail:
         attainable=result.spread(attainable.astype(np.float64), 0.0) > 0.0,
         cloud=drive_cloud(evaluation.demand, figures, CLOUD_POINTS, np.unique(worst[worst >= 0])),
         figures=figures,
+        peak_torque=_known(row.get("motor.peak_torque_nm")),
+        greatest_speed=rad_per_s(_known(row.get("motor.max_speed_rpm"))),
+        why_no_voltage=why_no_voltage(row),
     )
+
+
+def _known(value: float | None) -> float:
+    return np.nan if value is None else float(value)
 
 
 def _needs(selection: Selection, failing: list[RankedActuator]) -> tuple[tuple[RankedActuator, tuple[Need, ...]], ...]:
@@ -289,8 +308,9 @@ def _needs(selection: Selection, failing: list[RankedActuator]) -> tuple[tuple[R
 
 
 def _variant(selection: Selection, variant: Variant) -> VariantResult:
+    rows = selection.result.candidates.rows
     ranked = rank_result(
-        evaluate_candidates(variant.study, selection.result.candidates),
+        evaluate_candidates(variant.study, from_rows(rows, variant.study.table.assumptions)),
         require=selection.required_percent,
         fingerprint=selection.fingerprint,
         where=selection.where,
@@ -303,8 +323,7 @@ def _variant(selection: Selection, variant: Variant) -> VariantResult:
 
 def _moves(selection: Selection) -> tuple[tuple[str, Simulation], ...]:
     best = selection.ranked[0].index
-    candidates = selection.result.candidates
-    single = Candidates(rows=(candidates.rows[best],), actuators=candidates.actuators.take([best]))
+    single = selection.result.candidates.single(best)
     study: Study = selection.study
     return tuple(
         (
@@ -317,16 +336,19 @@ def _moves(selection: Selection) -> tuple[tuple[str, Simulation], ...]:
 
 def _parts(selection: Selection, actuators: tuple[RankedActuator, ...], catalogue: Catalogue) -> tuple[Part, ...]:
     parts: dict[tuple[str, str], Part] = {}
+    taken: dict[tuple[str, str], dict[Assumed, None]] = {}
     for actuator in actuators:
         row = selection.result.candidates.rows[actuator.index]
         own = {name: value for name, value in row.items() if "." not in name}
-        rows = [("actuators", own)]
+        rows: list[tuple[str, Mapping[str, Any], tuple[Assumed, ...]]] = [("actuators", own, ())]
         for role, kind in PART_KINDS.items():
             if row.get(f"{role}_id") is not None:
                 joined = {name.split(".", 1)[1]: value for name, value in row.items() if name.startswith(f"{role}.")}
-                rows.append((kind, {"id": row[f"{role}_id"], **joined}))
-        for kind, figures in rows:
+                assumed = tuple(one for one in actuator.assumptions if one.column.startswith(f"{role}."))
+                rows.append((kind, {"id": row[f"{role}_id"], **joined}, assumed))
+        for kind, figures, assumed in rows:
             key = (kind, str(figures["id"]))
+            taken.setdefault(key, {}).update(dict.fromkeys(assumed))
             if key not in parts:
                 parts[key] = Part(
                     kind=kind,
@@ -334,5 +356,6 @@ def _parts(selection: Selection, actuators: tuple[RankedActuator, ...], catalogu
                     figures={name: value for name, value in figures.items() if value is not None},
                     source=catalogue.source(str(figures["source_id"])),
                     findings=tuple(check_rows(kind, [figures])),
+                    assumed=(),
                 )
-    return tuple(parts.values())
+    return tuple(replace(part, assumed=tuple(taken[key])) for key, part in parts.items())

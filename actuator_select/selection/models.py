@@ -28,7 +28,7 @@ class ModelCount:
     by_torque : tuple of int
         Per actuator, positions at which its torque alone suffices; -1 where a figure is unknown.
     feasible : tuple of int
-        Per actuator, positions at which all of the study's checks hold; -1 where one could not be evaluated.
+        Per actuator, positions at which all of the study's checks hold; -1 where an applicable one was not evaluated.
     exact : tuple of int or None
         The same by the exact joint test, where it was made.
     """
@@ -80,13 +80,12 @@ def _count(study: Study, actuators: ActuatorSet, *, moving: bool) -> ModelCount:
     torque = evaluate_actuators(demand, actuators, [Check.TORQUE])
     known = torque.checks[Check.TORQUE].evaluated
     evaluation = evaluate_actuators(demand, actuators, study.checks)
-    decided = np.logical_and.reduce([count.evaluated for count in evaluation.checks.values()])
     exact = exact_counts(study, evaluation, range(len(actuators)))
     return ModelCount(
         model=study.tension_model,
         moving=moving,
         attainable=attainable,
         by_torque=tuple(np.where(known, torque.positions, -1).tolist()),
-        feasible=tuple(np.where(decided, evaluation.positions, -1).tolist()),
+        feasible=tuple(np.where(evaluation.decided, evaluation.positions, -1).tolist()),
         exact=tuple(exact.get(index) for index in range(len(actuators))),
     )

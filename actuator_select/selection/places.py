@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from actuator_select.errors import InvalidInput, Problem
-from actuator_select.model.actuation import ROUNDING, Check, torque_line, voltage_line
+from actuator_select.model.actuation import ROUNDING, Check, is_applicable, torque_line, voltage_line
 from actuator_select.model.arrays import BoolArray, FloatArray, IntArray
 from actuator_select.model.components import ActuatorSet
 from actuator_select.model.demand import Demand, Progress, compute_demand
@@ -100,10 +100,11 @@ def missed_places(study: Study, actuators: ActuatorSet) -> list[MissedPlaces]:
         )
         demand = study_demand(study, positions)
         utilisation = np.stack(list(position_utilisation(demand, actuators, study.checks).values()))
+        unknown = np.isnan(utilisation) & np.stack([is_applicable(actuators, one) for one in study.checks])[:, :, None]
         served[:, index] = (np.nan_to_num(utilisation) <= 1.0 + ROUNDING).all(axis=(0, 2))
         attainable.append(bool(demand.attainable_positions.all()))
         served[:, index] &= attainable[-1]
-        known[:, index] = ~np.isnan(utilisation).any(axis=(0, 2))
+        known[:, index] = ~unknown.any(axis=(0, 2))
     titles = [place.title or f"place {number}" for number, place in enumerate(places, start=1)]
     beyond = tuple(title for title, holds in zip(titles, attainable, strict=True) if not holds)
     return [
@@ -170,7 +171,7 @@ def connected_percents(
         return {}
     shares = {}
     for index in indices:
-        if not all(count.evaluated[index] for count in evaluation.checks.values()):
+        if not evaluation.decided[index]:
             continue
         feasible = np.zeros(len(study.positions), dtype=np.bool_)
         feasible[counted] = position_verdicts(evaluation, int(index), study.checks)
@@ -201,10 +202,11 @@ def exact_counts(study: Study, evaluation: Evaluation, indices: Iterable[int]) -
         return {}
     counts = {}
     for index in indices:
-        if not all(count.evaluated[index] for count in evaluation.checks.values()):
+        if not evaluation.decided[index]:
             continue
         actuator = evaluation.actuators.take([int(index)])
-        used = position_utilisation(demand, actuator, study.checks)
+        checks = [check for check in study.checks if evaluation.checks[check].evaluated[index]]
+        used = position_utilisation(demand, actuator, checks)
         holds = {check: values[0] <= 1.0 + ROUNDING for check, values in used.items()}
         attainable = demand.attainable_positions
         safe = np.logical_and.reduce([attainable, *holds.values()])
@@ -213,7 +215,7 @@ def exact_counts(study: Study, evaluation: Evaluation, indices: Iterable[int]) -
             study.robot,
             demand,
             study.wrenches,
-            drive_lines(actuator, study.checks),
+            drive_lines(actuator, checks),
             safe=safe,
             possible=np.logical_and.reduce([attainable, *alone]),
         )

@@ -3,7 +3,7 @@
 from math import isfinite
 from typing import Any
 
-from actuator_select.model.actuation import Check
+from actuator_select.selection.assumptions import Assumed
 from actuator_select.selection.selection import CheckVerdict, RankedActuator, Selection
 from actuator_select.selection.simulation import UNITS, Simulation
 
@@ -57,6 +57,18 @@ def _actuator_record(actuator: RankedActuator, poses: int) -> dict[str, Any]:
         "poses": poses,
         "verdict": actuator.verdict.value,
         "checks": {check.value: _check_record(verdict) for check, verdict in actuator.checks.items()},
+        "assumptions": [_assumption_record(one) for one in actuator.assumptions],
+    }
+
+
+def _assumption_record(assumed: Assumed) -> dict[str, Any]:
+    return {
+        "figure": assumed.figure,
+        "column": assumed.column,
+        "value": assumed.value,
+        "unit": assumed.unit,
+        "key": assumed.key or None,
+        "text": assumed.text,
     }
 
 
@@ -68,6 +80,7 @@ def _check_record(verdict: CheckVerdict) -> dict[str, Any]:
         "margin": _finite(verdict.margin),
         "worst_position_m": list(verdict.worst_position) if verdict.worst_position else None,
         "missing": list(verdict.missing),
+        "reason": verdict.reason or None,
     }
 
 
@@ -82,21 +95,23 @@ def simulation_record(run: Simulation) -> dict[str, Any]:
     Returns
     -------
     dict
-        Quantities at the shaft behind the gearbox; None where a figure is unknown.
+        Quantities at the shaft behind the gearbox; None where a figure is unknown. Checks that do not apply to the
+        actuator stand under ``not_applicable`` alone.
     """
     return {
         "study": run.study.name,
         "actuator": {"id": run.candidates.ids[0], "name": run.candidates.names[0]},
         "tension_model": run.study.tension_model.value,
         "duration_s": run.duration,
-        "units": {check.value: unit for check, unit in UNITS.items()},
-        "limits": {check.value: _finite(run.limits[check]) for check in Check},
+        "assumptions": [_assumption_record(one) for one in run.candidates.assumed[0]],
+        "units": {check.value: UNITS[check] for check in run.checks},
+        "limits": {check.value: _finite(run.limits[check]) for check in run.checks},
         "peaks": {
             check.value: [
                 {"actuator": cable + 1, "peak": _finite(peak), "time_s": _finite(time)}
                 for cable, (peak, time) in enumerate(zip(run.peaks[check], run.peak_times[check], strict=True))
             ]
-            for check in Check
+            for check in run.checks
         },
         "exceedances": [
             {
@@ -111,6 +126,7 @@ def simulation_record(run: Simulation) -> dict[str, Any]:
         ],
         "not_held": [{"from_s": start, "to_s": stop} for start, stop in run.unheld],
         "not_evaluated": {check.value: list(missing) for check, missing in run.missing.items()},
+        "not_applicable": {check.value: reason for check, reason in run.not_applicable.items()},
         "negative_tension_cables": run.pushing,
         "rank_deficient": bool(run.history.rank_deficient.any()),
         "unbalanced_wrench": bool(run.history.unbalanced.any()),

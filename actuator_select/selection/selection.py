@@ -12,6 +12,7 @@ from actuator_select.model.arrays import FloatArray, IntArray
 from actuator_select.model.demand import Progress
 from actuator_select.model.evaluation import Evaluation, evaluate_actuators, missing_figures
 from actuator_select.model.ranking import State, Verdict, meets_share, ranking_order, verdicts
+from actuator_select.selection.assumptions import Assumed, why_no_voltage
 from actuator_select.selection.candidates import Candidates, find_candidates
 from actuator_select.selection.cautions import Warned, demand_warnings
 from actuator_select.selection.places import (
@@ -46,6 +47,8 @@ class CheckVerdict:
         Where that is. [m]
     missing : tuple of str
         Figures that are unknown.
+    reason : str
+        Why a check that the study asks for does not apply to this actuator; else empty.
     """
 
     state: State
@@ -53,6 +56,7 @@ class CheckVerdict:
     worst_utilisation: float | None = None
     worst_position: tuple[float, float, float] | None = None
     missing: tuple[str, ...] = ()
+    reason: str = ""
 
     @property
     def margin(self) -> float | None:
@@ -78,13 +82,15 @@ class RankedActuator:
     feasible_percent : float
         The same as a share of all positions.
     checks : dict of Check to CheckVerdict
-        All four; `NOT_APPLICABLE` where the study does not ask for a check.
+        All four; `NOT_APPLICABLE` where the study does not ask for a check, or it says nothing about this actuator.
     exact_poses : int or None
         Positions by the exact joint test; None where it was not made.
     connected_percent : float or None
         Share of these positions that is connected to the home position; None where it was not looked for. [%]
     missed : tuple of str
         Places of `requirement.must_serve` that are not served, or not known to be.
+    assumptions : tuple of Assumed
+        What was taken for figures that the catalogue does not state.
     """
 
     index: int
@@ -97,11 +103,14 @@ class RankedActuator:
     exact_poses: int | None = None
     connected_percent: float | None = None
     missed: tuple[str, ...] = ()
+    assumptions: tuple[Assumed, ...] = ()
 
     @property
     def is_upper_bound(self) -> bool:
-        """Whether a check was not evaluated, so that the share is known from above only."""
-        return any(verdict.state is State.NOT_EVALUATED for verdict in self.checks.values())
+        """Whether a check was not evaluated, or none applies, so that the share is known from above only."""
+        return self.limiting_check is None or any(
+            verdict.state is State.NOT_EVALUATED for verdict in self.checks.values()
+        )
 
     @property
     def limiting_check(self) -> Check | None:
@@ -222,10 +231,13 @@ class Selection:
         return tuple(actuator for actuator in self.ranked if not only_meeting or actuator.verdict is Verdict.MEETS)
 
     def frame(self) -> "pd.DataFrame":
-        """Ranking as a table: one row per actuator, best first, with the counts of every check."""
+        """Ranking as a table: one row per actuator, best first, with the state and the counts of every check."""
         table = self.result.frame().loc[[actuator.id for actuator in self.ranked]]
         table.insert(1, "verdict", [actuator.verdict.value for actuator in self.ranked])
         table.insert(2, "feasible_percent", [actuator.feasible_percent for actuator in self.ranked])
+        for check in self.study.checks:
+            before = list(table.columns).index(f"{check.value}_poses")
+            table.insert(before, f"{check.value}_state", [one.checks[check].state.value for one in self.ranked])
         return table
 
 
@@ -354,6 +366,7 @@ def rank_result(result: StudyEvaluation, *, require: float | None, fingerprint: 
             exact_poses=exact.get(int(index)),
             connected_percent=connected.get(int(index)),
             missed=missed[index].titles,
+            assumptions=result.candidates.assumed[index],
         )
         for index in order
     )
@@ -378,6 +391,8 @@ def _check_verdict(
     count = result.evaluation.checks.get(check)
     if count is None:
         return CheckVerdict(state=State.NOT_APPLICABLE)
+    if not count.applicable[index]:
+        return CheckVerdict(state=State.NOT_APPLICABLE, reason=why_no_voltage(result.candidates.rows[index]))
     if not count.evaluated[index]:
         return CheckVerdict(state=State.NOT_EVALUATED, missing=missing[check][index])
     positions = count.positions[index]

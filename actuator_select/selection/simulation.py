@@ -8,7 +8,7 @@ import numpy as np
 
 from actuator_select.database import Catalogue
 from actuator_select.errors import InvalidInput, Problem
-from actuator_select.model.actuation import Check
+from actuator_select.model.actuation import Check, is_applicable
 from actuator_select.model.arrays import FloatArray
 from actuator_select.model.evaluation import missing_figures
 from actuator_select.model.exceedance import Exceedance, exceedances, peaks, with_peaks
@@ -21,6 +21,7 @@ from actuator_select.model.trajectory import (
     shaft_limits,
     trapezoidal_profile,
 )
+from actuator_select.selection.assumptions import why_no_voltage
 from actuator_select.selection.candidates import Candidates, find_actuator
 from actuator_select.study import Study
 from actuator_select.study.refusals import line_problems
@@ -49,7 +50,7 @@ class Simulation:
     history : DriveHistory
         Over time, per cable.
     limits : dict of Check to float
-        At the shaft behind the gearbox; NaN where unknown. [rad/s, N m, rad/s², V]
+        At the shaft behind the gearbox; NaN where unknown or not applicable. [rad/s, N m, rad/s², V]
     peaks, peak_times : dict of Check to (m,) array
         Largest magnitude per cable over the whole move, and when; not only over the instants of `history`.
     exceedances : tuple of Exceedance
@@ -69,6 +70,16 @@ class Simulation:
     def duration(self) -> float:
         """Of the move. [s]"""
         return float(self.move.profile.corners[-1])
+
+    @property
+    def checks(self) -> tuple[Check, ...]:
+        """Checks that apply to this actuator."""
+        return tuple(check for check in Check if is_applicable(self.candidates.actuators, check)[0])
+
+    @property
+    def not_applicable(self) -> dict[Check, str]:
+        """Checks that do not apply to this actuator, with the reason."""
+        return {check: why_no_voltage(self.candidates.rows[0]) for check in Check if check not in self.checks}
 
     @property
     def missing(self) -> dict[Check, tuple[str, ...]]:
@@ -113,7 +124,7 @@ class Simulation:
         return [int(cable) + 1 for cable in np.flatnonzero((tension < -tolerance).any(axis=0))]
 
     def frame(self) -> "pd.DataFrame":
-        """Histories as a table: time, and per actuator speed, acceleration, torque, voltage and tension."""
+        """Histories as a table: time, and per actuator speed, acceleration, torque, voltage if it applies, tension."""
         import pandas as pd
 
         columns = {"time_s": self.history.times}
@@ -122,7 +133,8 @@ class Simulation:
             columns[f"speed_{number}_rad_per_s"] = self.history.speed[:, index]
             columns[f"acceleration_{number}_rad_per_s2"] = self.history.acceleration[:, index]
             columns[f"torque_{number}_nm"] = self.history.torque[:, index]
-            columns[f"voltage_{number}_v"] = self.history.voltage[:, index]
+            if Check.VOLTAGE in self.checks:
+                columns[f"voltage_{number}_v"] = self.history.voltage[:, index]
             columns[f"tension_{number}_n"] = self.history.tension[:, index]
         return pd.DataFrame(columns)
 
@@ -177,7 +189,8 @@ def simulate(
     >>> sorted({exceedance.actuator for exceedance in run.exceedances if exceedance.check == "torque"})
     [1, 3, 8]
     """
-    return simulate_candidate(study, find_actuator(catalogue, actuator), start, stop, orientation)
+    candidate = find_actuator(catalogue, actuator, study.table.assumptions)
+    return simulate_candidate(study, candidate, start, stop, orientation)
 
 
 def simulate_candidate(

@@ -5,15 +5,18 @@ from math import inf, isinf
 
 import numpy as np
 
+from actuator_select.model.actuation import Check
 from actuator_select.model.arrays import FloatArray
 from actuator_select.model.exceedance import Exceedance
 from actuator_select.model.motion import MotionKind, SetShape
 from actuator_select.model.ranking import State, Verdict
 from actuator_select.model.tension import TensionModel
+from actuator_select.selection.assumptions import ASSUMABLE, Assumed
 from actuator_select.selection.selection import CheckVerdict, RankedActuator, Selection
 from actuator_select.selection.simulation import UNITS, Simulation
 from actuator_select.study import Study
 
+MOST_NAMED = 3  # actuators of one note that are named, the others counted
 MOST_LISTED = 6  # orientations that are listed one by one
 LARGE = 1e4  # utilisations from here on are written with three digits
 
@@ -24,11 +27,12 @@ FIGURE_NAMES = {
     "back_emf_constant": "back-EMF constant",
     "torque_constant": "torque constant",
     "resistance": "terminal resistance",
-    "friction": "viscous friction (enter 0 to neglect it)",
+    "friction": "viscous friction",
     "rotor_inertia": "rotor inertia",
     "ratio": "gear ratio",
     "efficiency": "efficiency",
     "drum_radius": "drum radius",
+    "electrical_convention": "electrical convention",
 }
 
 
@@ -70,19 +74,72 @@ def actuator_count(count: int) -> str:
     return f"{count} actuator{'' if count == 1 else 's'}"
 
 
-def missing_notes(actuators: Sequence[RankedActuator]) -> list[str]:
-    """Which figures keep which checks of which actuators from being evaluated, a sentence each."""
+def marked(actuator: RankedActuator) -> str:
+    """Name of an actuator, with a star where something was assumed for it."""
+    return f"{actuator.name} *" if actuator.assumptions else actuator.name
+
+
+def check_notes(actuators: Sequence[RankedActuator]) -> list[str]:
+    """Which checks of which actuators were not evaluated for want of which figures, or do not apply, and why."""
+    found: dict[str, list[str]] = {}
+    for actuator in actuators:
+        for check, verdict in actuator.checks.items():
+            if verdict.missing:
+                found.setdefault(f"{check.value} not evaluated, {unknown_words(verdict.missing)}", []).append(
+                    actuator.name
+                )
+            elif verdict.reason:
+                found.setdefault(inapplicable_words(check, verdict.reason), []).append(actuator.name)
+    return [f"{some_of(names)}: {text}." for text, names in found.items()]
+
+
+def inapplicable_words(check: Check, reason: str) -> str:
+    """Why a check does not apply to an actuator."""
+    return f"{check.value} not applicable, because its electrical figures are {reason}"
+
+
+def unknown_words(figures: Sequence[str]) -> str:
+    """Figures that a check lacks, and what would help: to state them, or an assumption where one is possible."""
+    text = f"{', '.join(FIGURE_NAMES[name] for name in figures)} unknown"
+    keys = {name: " or ".join(ASSUMABLE[name]) for name in figures if name in ASSUMABLE}
+    if not keys:
+        return text
+    if len(keys) == len(figures):
+        return f"{text}: state {'it' if len(keys) == 1 else 'them'}, or {', '.join(keys.values())}"
+    each = "; ".join(f"{FIGURE_NAMES[name]} could be assumed by {key}" for name, key in keys.items())
+    return f"{text} ({each})"
+
+
+def assumption_notes(actuators: Sequence[RankedActuator]) -> list[str]:
+    """What was assumed for which actuators, a sentence for each assumption."""
+    found: dict[str, list[tuple[str, Assumed]]] = {}
+    for actuator in actuators:
+        for one in actuator.assumptions:
+            found.setdefault(one.text, []).append((actuator.name, one))
     return [
-        f"{actuator.name}: {check.value} not evaluated, {missing_words(verdict.missing)} unknown."
-        for actuator in actuators
-        for check, verdict in actuator.checks.items()
-        if verdict.missing
+        f"{assumed_words([one for _, one in entries])}, for {some_of([name for name, _ in entries], len(actuators))}."
+        for entries in found.values()
     ]
 
 
-def missing_words(figures: Sequence[str]) -> str:
-    """Names of figures that a check lacks."""
-    return ", ".join(FIGURE_NAMES[name] for name in figures)
+def assumed_words(alike: Sequence[Assumed]) -> str:
+    """One assumption as it was made once or more, its values where they differ, and the study's key."""
+    first = alike[0]
+    values = sorted({one.value for one in alike if isinstance(one.value, float)})
+    spread = f", {values[0]:g} to {values[-1]:g} {first.unit}" if len(values) > 1 else ""
+    if not spread and first.key.endswith("_of_maximum"):
+        spread = f", {values[0]:g} {first.unit}"
+    return f"{first.text}{spread}{f' ({first.key})' if first.key else ''}"
+
+
+def some_of(names: Sequence[str], total: int = 0) -> str:
+    """Names, at most a few of them, or all of `total` actuators."""
+    if total > MOST_NAMED and len(names) == total:
+        return f"all {total} actuators"
+    rest = len(names) - MOST_NAMED
+    if rest <= 1:  # one more takes no more room than its count
+        return ", ".join(names)
+    return f"{', '.join(names[:MOST_NAMED])} and {rest} more"
 
 
 def heading(selection: Selection) -> list[str]:

@@ -25,7 +25,17 @@ from actuator_select.study.problems import study_problems
 from actuator_select.study.refusals import refuse_too_many_poses, refuse_what_cannot_be
 from actuator_select.study.schema import StudyTable
 
-VARIANT_TABLES = ("gravity_m_per_s2", "robot", "cables", "payload", "workspace", "motion", "tension", "checks")
+VARIANT_TABLES = (
+    "gravity_m_per_s2",
+    "robot",
+    "cables",
+    "payload",
+    "workspace",
+    "motion",
+    "tension",
+    "checks",
+    "assumptions",
+)
 NOT_IN_VARIANTS = ("variant", "sweep", "note")
 
 _STUDIES = resources.files("actuator_select") / "studies"

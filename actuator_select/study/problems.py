@@ -11,6 +11,8 @@ from actuator_select.errors import Problem, did_you_mean
 from actuator_select.study.schema import StudyTable
 
 _UNITS = {
+    "_nm_s_per_rad": "N m s/rad",
+    "_g_cm2": "g cm²",
     "_rad_per_s2": "rad/s²",
     "_rad_per_s": "rad/s",
     "_m_per_s2": "m/s²",

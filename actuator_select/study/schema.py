@@ -270,6 +270,15 @@ class CandidatesTable(Table):
     where: Annotated[str, Field(strict=True)] = ""
 
 
+class AssumptionsTable(Table):
+    """What stands for figures that the catalogue does not state; never for a limit or a constant of the motor."""
+
+    rotor_inertia_g_cm2: NotNegative | None = None
+    viscous_friction_nm_s_per_rad: NotNegative | None = None
+    gearbox_efficiency_percent: Annotated[Positive, Field(le=100.0)] | None = None
+    gearbox_efficiency_of_maximum: Annotated[Positive, Field(le=1.0)] | None = None
+
+
 class MustServeTable(Table):
     """A box or a position that has to be served whatever the share of the rest."""
 
@@ -359,6 +368,7 @@ class StudyTable(Table):
     tension: TensionTable = TensionTable()
     checks: ChecksTable = ChecksTable()
     candidates: CandidatesTable = CandidatesTable()
+    assumptions: AssumptionsTable = AssumptionsTable()
     requirement: RequirementTable = RequirementTable()
     move: tuple[MoveTable, ...] = ()
     variant: tuple[VariantTable, ...] = ()

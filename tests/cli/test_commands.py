@@ -1,5 +1,6 @@
 """The command line: contract, bad input, and the README's commands."""
 
+import csv
 import json
 import os
 import re
@@ -14,6 +15,7 @@ import pytest
 
 from actuator_select.cli import COMMANDS
 from actuator_select.cli import command as root
+from tests.selection.parts import PRINTED
 
 README = (Path(__file__).parents[2] / "README.md").read_text(encoding="utf-8")
 Run = Callable[..., tuple[int, str, str]]
@@ -125,7 +127,7 @@ def test_json_stands_alone_on_stdout(run: Run) -> None:
 
 
 def test_that_no_actuator_meets_the_requirement_is_a_result(run: Run) -> None:
-    status, out, _ = run("rank", "cpr8", "--require", "100")
+    status, out, _ = run("rank", "cpr8", "--where", PRINTED, "--require", "100")
     assert status == 0
     assert "0 of 7 actuators meet" in out
     status, out, _ = run("rank", "cpr8", "--require", "100", "--only-meeting", "--format", "json")
@@ -134,7 +136,7 @@ def test_that_no_actuator_meets_the_requirement_is_a_result(run: Run) -> None:
 
 
 def test_csv_has_a_row_per_actuator(run: Run) -> None:
-    status, out, _ = run("rank", "cpr8", "--format", "csv")
+    status, out, _ = run("rank", "cpr8-published", "--format", "csv")
     assert status == 0
     lines = out.splitlines()
     assert lines[0].startswith("id,name,verdict,feasible_percent,feasible_poses,poses,speed_state")
@@ -293,3 +295,36 @@ def test_any_locale_prints_utf_8(tmp_path: Path) -> None:
 def test_a_closed_stream_is_survived(tmp_path: Path) -> None:
     assert program(tmp_path, "rank cpr8 2>&-").returncode == 0
     assert program(tmp_path, "rank cpr8 >&-").returncode == 0
+
+
+PARTS = (
+    ("motors", "id=servo", "motor_type=pmsm_servo", "electrical_convention=ac_rms_phase", "rated_speed_rpm=5000",
+     "rated_torque_nm=0.637", "rotor_inertia_g_cm2=106", "source_id=filipovic-kevac-2018"),
+    ("gearboxes", "id=gear", "ratio=30", "max_efficiency_percent=75", "source_id=filipovic-kevac-2018"),
+    ("actuators", "id=servo", "name=Servo", "motor_id=servo", "gearbox_id=gear", "winch_id=filipovic-kevac-2018-winch",
+     "source_id=filipovic-kevac-2018"),
+)  # fmt: skip
+SHARE = ("--set", "assumptions.gearbox_efficiency_of_maximum=0.9")
+
+
+def test_what_was_assumed_and_what_does_not_apply_is_told_in_every_format(run: Run) -> None:
+    for kind, *cells in PARTS:
+        assert run("catalog", "add", kind, *cells)[0] == 0
+    asked = ("rank", "cpr8", "--where", "id = 'servo'", *SHARE)
+    _, out, _ = run(*asked)
+    assert "Servo *" in out
+    assert "not applicable" in out
+    assert "Servo: voltage not applicable, because its electrical figures are rms phase values" in out
+    key = "(assumptions.gearbox_efficiency_of_maximum)"
+    assumed = f"gearbox efficiency 0.9 × the greatest that is stated, 67.5 % {key}"
+    assert f"* Assumed: {assumed}, for Servo." in out
+    _, out, _ = run(*asked, "--format", "csv")
+    header, row = list(csv.reader(out.splitlines()))
+    assert dict(zip(header, row, strict=True))["assumptions"] == assumed
+    assert dict(zip(header, row, strict=True))["voltage_state"] == "not_applicable"
+    _, out, _ = run(*asked, "--format", "json")
+    assert json.loads(out)["actuators"][0]["assumptions"][0]["value"] == 67.5
+    _, out, _ = run("simulate", "cpr8", "Servo", "--from", "0.5,0.5,-0.5", "--to", "2.5,0.5,-0.5", *SHARE)
+    assert "|voltage|" not in out
+    assert "voltage not applicable" in out
+    assert f"assumed: {assumed}" in out

@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from actuator_select import Catalogue, ReportDetails, load_study, open_catalogue, rank, render_report
+from tests.selection.parts import PRINTED
 
 DETAILS = ReportDetails(
     generated_at=datetime(2026, 11, 22, 12, 0, tzinfo=UTC),
@@ -19,7 +20,7 @@ DETAILS = ReportDetails(
 
 @pytest.fixture(scope="module")
 def page(catalogue: Catalogue) -> str:
-    return render_report(rank(load_study("cpr8"), catalogue), catalogue, DETAILS)
+    return render_report(rank(load_study("cpr8"), catalogue, where=PRINTED), catalogue, DETAILS)
 
 
 def test_the_first_section_has_verdict_weakest_check_pose_and_what_is_not_modelled(page: str) -> None:

@@ -13,7 +13,8 @@ from actuator_select.selection import selection_record
 from actuator_select.selection.records import simulation_record
 from actuator_select.selection.workspaces import evaluate_workspace
 from actuator_select.study import Study
-from tests.selection.test_selection import PRINTED, add_actuator
+from tests.selection.parts import PRINTED
+from tests.selection.test_selection import add_actuator
 
 ONE = "name = 'Actuator 1'"
 HELD = {"tension.model": "force_only"}

@@ -10,8 +10,7 @@ from actuator_select import Catalogue, evaluate, load_study, open_catalogue, ran
 from actuator_select.errors import InvalidExpression, InvalidInput, NoCandidates, UnknownName
 from actuator_select.model.actuation import Check
 from actuator_select.selection import selection_record
-
-PRINTED = "source_location = 'Table 1'"  # without the twins whose motors are identified
+from tests.selection.parts import PRINTED
 
 
 @pytest.fixture
