@@ -3,7 +3,9 @@
 import click
 
 from actuator_select.cli.catalog.adding import add
+from actuator_select.cli.catalog.changing import copy, edit, remove
 from actuator_select.cli.catalog.checking import check
+from actuator_select.cli.catalog.comparing import diff, history
 from actuator_select.cli.catalog.exporting import export
 from actuator_select.cli.catalog.importing import import_file
 from actuator_select.cli.catalog.listing import fields, list_rows
@@ -28,5 +30,5 @@ def command() -> None:
     """
 
 
-for subcommand in (list_rows, show, fields, add, import_file, export, check):
+for subcommand in (list_rows, show, fields, add, edit, copy, remove, history, diff, import_file, export, check):
     command.add_command(subcommand)
