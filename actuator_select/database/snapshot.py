@@ -42,7 +42,7 @@ def open_for_reading(url: str | Path) -> ReadableCatalogue:
         If there is none, it cannot be read, is of another program or a newer one; or it is older and no SQLite file.
     """
     address = database_url(url)
-    copied = address.drivername.partition("+")[0] == "sqlite"
+    copied = _can_be_copied(address)
     engine = make_engine(database_url(":memory:") if copied else address)
     try:
         notices = _fill_copy(engine, address) if copied else _refuse_other_revision(engine)
@@ -50,6 +50,10 @@ def open_for_reading(url: str | Path) -> ReadableCatalogue:
         engine.dispose()
         raise
     return ReadableCatalogue(engine, notices)
+
+
+def _can_be_copied(address: sa.URL) -> bool:
+    return address.drivername.partition("+")[0] == "sqlite"
 
 
 def _fill_copy(engine: sa.Engine, address: sa.URL) -> tuple[str, ...]:
@@ -86,10 +90,9 @@ def _read_only(address: sa.URL) -> str:
     if file.startswith("file:"):
         return f"{file}?mode=ro"
     path = Path(file)
-    if not file or file == ":memory:" or not path.exists():
+    if not path.is_file():
         raise CatalogueUnavailable(
-            f"there is no catalogue {file or ':memory:'} to be read; name the file, or write a URL such as "
-            "sqlite:///parts.db"
+            f"there is no catalogue file {file or ':memory:'}; name one, or write a URL such as sqlite:///parts.db"
         )
     return f"{path.absolute().as_uri()}?mode=ro"
 
