@@ -26,6 +26,8 @@ def command() -> None:
         actuator-select catalog show "Actuator 4"
         actuator-select catalog fields motors
         actuator-select catalog import motors.csv --dry-run
+        actuator-select catalog copy my-motor --as my-motor-24v nominal_voltage_v=24
+        actuator-select catalog history my-motor
         actuator-select catalog check
     """
 
