@@ -57,6 +57,10 @@ class InvalidRows(InvalidInput):
     """Catalogue rows that cannot be taken in."""
 
 
+class RowInUse(ActuatorSelectError, ValueError):
+    """A catalogue row that cannot be removed, because other rows refer to it."""
+
+
 class InvalidExpression(InvalidInput):
     """A ``--where`` or ``--sort`` expression that does not parse or names no column.
 

@@ -1,31 +1,24 @@
 """The catalogue as the rest of the program and a notebook see it."""
 
-import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from types import MappingProxyType
 
-from actuator_select.database.cells import quoted
+from actuator_select.database.changing import Edit, Removal, add_row, copy_row, edit_row, remove_row
 from actuator_select.database.connection import database_url, make_engine, prepare, writing
 from actuator_select.database.csv_table import read_csv
 from actuator_select.database.ingest import (
     Progress,
-    Record,
     find_kind_of,
     plan_rows,
-    read_record,
     read_records,
     refuse,
     write_plan,
 )
-from actuator_select.database.kinds import KINDS, find_kind
-from actuator_select.database.queries import Row
+from actuator_select.database.kinds import find_kind
+from actuator_select.database.queries import Row, fetch_row
 from actuator_select.database.reader import ReadableCatalogue
-from actuator_select.errors import Problem
-
-if TYPE_CHECKING:
-    from actuator_select.database.fields import Kind
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -121,23 +114,9 @@ class Catalogue(ReadableCatalogue):
             With everything that is wrong.
         """
         found = find_kind(kind)
-        rows: list[tuple[Kind, Mapping[str, object], str]] = [(found, values, "")]
-        if source is not None:
-            new_source = {"id": _derived_id(source), **source}
-            rows = [(KINDS["sources"], new_source, "source."), (found, {**values, "source_id": new_source["id"]}, "")]
-        problems: list[Problem] = []
         with writing(self._engine) as connection:
-            for one, given, prefix in rows:
-                record, refused = read_record(one, given, prefix)
-                plan, more = plan_rows(connection, one, [record], update=False)
-                # A source that is refused cannot be referred to either; that needs no telling.
-                problems += [problem for problem in (*refused, *more) if not problems or problem.place != "source_id"]
-                if not problems:
-                    write_plan(connection, one, plan, by="catalog add")
-            if not problems and not plan.added:
-                problems = [_already_there(record)]
-            refuse(f"the {found.singular} was not added", problems)
-        return self.part(str(record.given["id"]), found.name)[1]
+            row_id = add_row(connection, found, values, source)
+            return fetch_row(connection, found, row_id)
 
     def import_csv(
         self,
@@ -191,17 +170,105 @@ class Catalogue(ReadableCatalogue):
             dry_run=dry_run,
         )
 
+    def edit(
+        self,
+        row_id: str,
+        values: Mapping[str, object],
+        kind: str | None = None,
+        source: Mapping[str, object] | None = None,
+        *,
+        dry_run: bool = False,
+    ) -> Edit:
+        """Change columns of one row; a shipped row becomes the user's.
 
-def _derived_id(source: Mapping[str, object]) -> str:
-    """Id for a source that was described without one, from its title and date."""
-    words = f"{source.get('document') or ''} {source.get('date') or ''}".lower()
-    return "-".join(re.findall("[a-z0-9]+", words))[:60].strip("-") or "source"
+        Parameters
+        ----------
+        row_id : str
+            The id, which never changes; for actuators the name as well.
+        values : mapping of str to object
+            Numbers or texts by column name, in the columns' units; empty is unknown. Other columns stay.
+        kind : str, optional
+            Where to look; everywhere by default.
+        source : mapping of str to object, optional
+            A new row of ``sources``, which then states the row's figures.
+        dry_run : bool
+            Check everything and write nothing.
 
+        Returns
+        -------
+        Edit
+            What changed.
 
-def _already_there(record: Record) -> Problem:
-    return Problem(
-        place=record.at("id"),
-        value=quoted(record.given.get("id")),
-        expected="an id that the catalogue does not have",
-        remedy="the catalogue has this very row already",
-    )
+        Raises
+        ------
+        InvalidRows
+            With everything that is wrong.
+        UnknownName
+            If there is no such row, or several kinds have it.
+        """
+        with writing(self._engine, keep=not dry_run) as connection:
+            return edit_row(connection, row_id, values, kind, source)
+
+    def copy(
+        self,
+        row_id: str,
+        new_id: str,
+        values: Mapping[str, object] = MappingProxyType({}),
+        kind: str | None = None,
+        source: Mapping[str, object] | None = None,
+    ) -> tuple[str, Row]:
+        """Add a row that starts from another one, without what a check of the other one's figures said.
+
+        Parameters
+        ----------
+        row_id : str
+            The row to start from.
+        new_id : str
+            Id of the new row, and its name where names are unique and `values` has none.
+        values : mapping of str to object, optional
+            Columns with other values.
+        kind, source
+            As for `edit`.
+
+        Returns
+        -------
+        str, dict
+            Kind and values of the new row.
+
+        Raises
+        ------
+        InvalidRows
+            With everything that is wrong.
+        UnknownName
+            If there is no such row, or several kinds have it.
+        """
+        with writing(self._engine) as connection:
+            found, _ = copy_row(connection, row_id, new_id, values, kind, source)
+            return found.name, fetch_row(connection, found, new_id)
+
+    def remove(self, row_id: str, kind: str | None = None, *, dry_run: bool = False) -> Removal:
+        """Remove one row; its history keeps what it said.
+
+        Parameters
+        ----------
+        row_id : str
+            The id; for actuators the name as well.
+        kind : str, optional
+            Where to look; everywhere by default.
+        dry_run : bool
+            Find out whether it can be removed, and leave it.
+
+        Returns
+        -------
+        Removal
+            What was removed.
+
+        Raises
+        ------
+        RowInUse
+            If other rows refer to it; the message names them.
+        UnknownName
+            If there is no such row, or several kinds have it.
+        """
+        with writing(self._engine, keep=not dry_run) as connection:
+            return remove_row(connection, row_id, kind)

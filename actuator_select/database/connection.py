@@ -94,7 +94,7 @@ def make_engine(url: sa.URL) -> sa.Engine:
         engine = sa.create_engine(url, **options)
     except (ImportError, sa.exc.ArgumentError, TypeError) as error:
         raise CatalogueUnavailable(
-            f"cannot use the database {_shown(url)}: {error}; install the driver that the URL names, or use a file"
+            f"cannot use the database {shown(url)}: {error}; install the driver that the URL names, or use a file"
         ) from error
     if sqlite:
         sa.event.listen(engine, "connect", _set_up_sqlite)
@@ -131,7 +131,12 @@ def explaining(engine: sa.Engine) -> Iterator[None]:
     except sa.exc.IntegrityError as error:
         raise InvalidRows(f"the database refuses the rows: {error.orig}; nothing was written") from error
     except sa.exc.DBAPIError as error:
-        raise CatalogueUnavailable(f"the catalogue {_shown(engine.url)} {_cause(str(error.orig))}") from error
+        raise unavailable(shown(engine.url), str(error.orig)) from error
+
+
+def unavailable(name: str, message: str) -> CatalogueUnavailable:
+    """Error that explains a database's own `message`."""
+    return CatalogueUnavailable(f"the catalogue {name} {_cause(message)}")
 
 
 def prepare(engine: sa.Engine) -> tuple[str, ...]:
@@ -153,31 +158,39 @@ def prepare(engine: sa.Engine) -> tuple[str, ...]:
         If it is not a catalogue, is newer than the program, or cannot be read or written.
     """
     with reading(engine) as connection:
-        revision = _revision(connection)
+        revision = revision_of(connection, shown(engine.url))
         if revision == migration.SCHEMA_REVISION and _is_filled(connection):
             return ()
     try:
         with writing(engine) as connection:
             # Another process may have done it while this one waited for its turn.
-            revision = _revision(connection)
+            revision = revision_of(connection, shown(engine.url))
             if revision != migration.SCHEMA_REVISION:
-                migration.upgrade(connection, revision, _shown(engine.url))
+                migration.upgrade(connection, revision, shown(engine.url))
             notices = () if _is_filled(connection) else shipped.refresh(connection)
     except CatalogueUnavailable:
         if revision != migration.SCHEMA_REVISION:
             raise
-        return (f"The catalogue {_shown(engine.url)} cannot be written now; its shipped rows are of another version.",)
+        return (f"The catalogue {shown(engine.url)} cannot be written now; its shipped rows are of another version.",)
     made = revision is None and engine.url.database not in _MEMORY
-    return (f"Made the catalogue {_shown(engine.url)}.", *notices) if made else notices
+    return (f"Made the catalogue {shown(engine.url)}.", *notices) if made else notices
+
+
+def revision_of(connection: sa.Connection, name: str) -> str | None:
+    """Revision of a database that messages call `name`, None for an empty one."""
+    tables = set(sa.inspect(connection).get_table_names())
+    return migration.current_revision(connection, tables, name)
+
+
+def shown(url: sa.URL) -> str:
+    """Name of a database in messages, without its password."""
+    if url.get_backend_name() == "sqlite" and url.database and not url.query:
+        return url.database
+    return url.render_as_string(hide_password=True)
 
 
 def _is_filled(connection: sa.Connection) -> bool:
     return fetch_state(connection, shipped.DIGEST_STATE) == shipped.shipped_digest()
-
-
-def _revision(connection: sa.Connection) -> str | None:
-    tables = set(sa.inspect(connection).get_table_names())
-    return migration.current_revision(connection, tables, _shown(connection.engine.url))
 
 
 def _is_known(url: sa.URL) -> bool:
@@ -185,7 +198,7 @@ def _is_known(url: sa.URL) -> bool:
         url.get_dialect()
     except sa.exc.ArgumentError as error:
         raise CatalogueUnavailable(
-            f"{_shown(url)} names no kind of database that can be used; write a file name, or a URL such as "
+            f"{shown(url)} names no kind of database that can be used; write a file name, or a URL such as "
             "sqlite:///parts.db"
         ) from error
     except ImportError:
@@ -237,10 +250,3 @@ def _cause(message: str) -> str:
 
 def _without_password(text: str) -> str:
     return re.sub(r":[^:@/]*@", ":***@", text)
-
-
-def _shown(url: sa.URL) -> str:
-    """Name of a database in messages, without its password."""
-    if url.get_backend_name() == "sqlite" and url.database and not url.query:
-        return url.database
-    return url.render_as_string(hide_password=True)

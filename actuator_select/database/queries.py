@@ -8,7 +8,7 @@ import sqlalchemy as sa
 
 from actuator_select.database.cells import Value
 from actuator_select.database.fields import Field, Kind
-from actuator_select.database.kinds import ACTUATORS, ROLES
+from actuator_select.database.kinds import ACTUATORS, KINDS, ROLES
 from actuator_select.database.schema import CHANGES, SHIPPED_ROWS, STATE, TABLES
 
 Row = dict[str, Value]
@@ -70,6 +70,11 @@ def fetch_rows(
     return [dict(zip(names, values, strict=True)) for values in connection.execute(query)]
 
 
+def fetch_row(connection: sa.Connection, kind: Kind, row_id: str) -> Row:
+    """The row that has this id, with its parts' columns."""
+    return fetch_rows(connection, kind, TABLES[kind.name].c.id == row_id)[0]
+
+
 def fetch_own_rows(connection: sa.Connection, kind: Kind, ids: Iterable[str] | None = None) -> dict[str, Row]:
     """Rows without their parts' columns, by id: all, or those of `ids` that exist."""
     table = TABLES[kind.name]
@@ -83,6 +88,13 @@ def fetch_own_rows(connection: sa.Connection, kind: Kind, ids: Iterable[str] | N
     names = [field.name for field in kind.columns]
     found = (dict(zip(names, values, strict=True)) for batch in batches for values in connection.execute(batch))
     return {str(row["id"]): row for row in found}
+
+
+def fetch_cells(connection: sa.Connection, kind: Kind, ids: Sequence[str]) -> set[tuple[Value, ...]]:
+    """Rows of some hundred `ids` as tuples of what users fill, in the order of the columns; the id comes first."""
+    table = TABLES[kind.name]
+    query = sa.select(*(table.c[field.name] for field in kind.fields)).where(table.c.id.in_(ids))
+    return set(map(tuple, connection.execute(query)))
 
 
 def fetch_values(connection: sa.Connection, kind: Kind, column: str) -> dict[str, str]:
@@ -141,6 +153,24 @@ def fetch_referenced(connection: sa.Connection, kind: Kind) -> set[str]:
     return {str(value) for value in connection.scalars(sa.union(*referring)) if value is not None}
 
 
+def fetch_uses(
+    connection: sa.Connection, kind: Kind, row_id: str, most: int
+) -> list[tuple[Kind, Field, int, list[str]]]:
+    """Which rows refer to a row: their kind, the column, how many, and the first `most` ids."""
+    referring = [(other, field) for other in KINDS.values() for field in other.references]
+    uses = []
+    for other, field in referring:
+        if field.references != kind.name:
+            continue
+        table = TABLES[other.name]
+        refers = table.c[field.name] == row_id
+        count = int(connection.scalar(sa.select(sa.func.count()).select_from(table).where(refers)) or 0)
+        if count:
+            first = sa.select(table.c.id).where(refers).order_by(table.c.id).limit(most)
+            uses.append((other, field, count, list(connection.scalars(first))))
+    return uses
+
+
 def fetch_ledger(connection: sa.Connection) -> dict[tuple[str, str], str]:
     """Digest of every shipped row as shipped, by kind and id."""
     query = sa.select(SHIPPED_ROWS.c.kind, SHIPPED_ROWS.c.id, SHIPPED_ROWS.c.digest)
@@ -168,6 +198,11 @@ def fetch_changes(connection: sa.Connection, row_id: str, kind: Kind | None = No
     if kind is not None:
         query = query.where(CHANGES.c.kind == kind.name)
     return [dict(row) for row in connection.execute(query).mappings()]
+
+
+def fetch_past_ids(connection: sa.Connection) -> list[str]:
+    """Ids of all rows that something happened to, also of rows that are gone."""
+    return list(connection.scalars(sa.select(CHANGES.c.row_id).distinct().order_by(CHANGES.c.row_id)))
 
 
 def fetch_state(connection: sa.Connection, name: str) -> str | None:

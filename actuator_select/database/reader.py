@@ -1,6 +1,7 @@
 """Reading a catalogue: rows, parts, sources, history, exports."""
 
 from collections.abc import Sequence
+from contextlib import AbstractContextManager
 from pathlib import Path
 from types import TracebackType
 from typing import TYPE_CHECKING, Self
@@ -13,13 +14,11 @@ from actuator_select.database.content import catalogue_digest
 from actuator_select.database.export import rows_as_csv, write_folder
 from actuator_select.database.history import Change
 from actuator_select.database.kinds import KINDS, find_kind
+from actuator_select.database.naming import locate
 from actuator_select.database.queries import Row
-from actuator_select.errors import UnknownName, did_you_mean
 
 if TYPE_CHECKING:
     import pandas as pd
-
-_LISTED_NAMES = 12  # more names than these are not listed in a message
 
 
 class ReadableCatalogue:
@@ -130,21 +129,9 @@ class ReadableCatalogue:
         UnknownName
             If there is none, or several kinds have it.
         """
-        kinds = list(KINDS.values()) if kind is None else [find_kind(kind)]
         with reading(self._engine) as connection:
-            names = [(one, queries.fetch_names(connection, one)) for one in kinds]
-            found = [(one, known[row_id]) for one, known in names if row_id in known]
-            if len(found) == 1:
-                (one, own_id) = found[0]
-                identity = queries.columns_of(one)[0].expression
-                return one.name, queries.fetch_rows(connection, one, identity == own_id)[0]
-        if found:
-            among = ", ".join(one.name for one, _ in found)
-            raise UnknownName(f"{row_id!r} is in {among}; state which with --kind")
-        where = "the catalogue" if kind is None else kinds[0].name
-        raise UnknownName(
-            f"there is no {row_id!r} in {where}; {_hint(row_id, [name for _, known in names for name in known])}"
-        )
+            found, own_id = locate(connection, row_id, kind)
+            return found.name, queries.fetch_row(connection, found, own_id)
 
     def source(self, row_id: str) -> Row:
         """Document that states figures, by its id; UnknownName where there is none."""
@@ -174,18 +161,31 @@ class ReadableCatalogue:
         Parameters
         ----------
         row_id : str
-            Its id.
+            Its id; for actuators the name as well.
         kind : str, optional
             Its kind; every kind by default.
 
         Returns
         -------
         list of Change
-            Oldest first.
+            Oldest first; empty for a row that was there before the history began, and that nothing happened to since.
+
+        Raises
+        ------
+        UnknownName
+            If there never was such a row.
         """
         found = None if kind is None else find_kind(kind)
         with reading(self._engine) as connection:
-            return [Change(**change) for change in queries.fetch_changes(connection, row_id, found)]
+            changes = queries.fetch_changes(connection, row_id, found)
+            if not changes:
+                known, own_id = locate(connection, row_id, kind, queries.fetch_past_ids(connection))
+                changes = queries.fetch_changes(connection, own_id, known)
+            return [Change(**change) for change in changes]
+
+    def transaction(self) -> AbstractContextManager[sa.Connection]:
+        """Transaction that reads, for what this class has no method for."""
+        return reading(self._engine)
 
     def export_csv(self, kind: str) -> str:
         """Rows of one kind as CSV text that `import_csv` reads back exactly.
@@ -225,10 +225,3 @@ class ReadableCatalogue:
         with reading(self._engine) as connection:
             rows = {kind: queries.fetch_own_rows(connection, kind).values() for kind in KINDS.values()}
         return write_folder(Path(path), {kind.name: rows_as_csv(kind, found) for kind, found in rows.items()})
-
-
-def _hint(word: str, known: Sequence[str]) -> str:
-    hint = did_you_mean(word, known)
-    if len(known) > _LISTED_NAMES and hint.startswith("known are"):
-        return "`actuator-select catalog list KIND` shows what there is"
-    return hint

@@ -3,7 +3,9 @@
 import click
 
 from actuator_select.cli.catalog.adding import add
+from actuator_select.cli.catalog.changing import copy, edit, remove
 from actuator_select.cli.catalog.checking import check
+from actuator_select.cli.catalog.comparing import diff, history
 from actuator_select.cli.catalog.exporting import export
 from actuator_select.cli.catalog.importing import import_file
 from actuator_select.cli.catalog.listing import fields, list_rows
@@ -24,9 +26,11 @@ def command() -> None:
         actuator-select catalog show "Actuator 4"
         actuator-select catalog fields motors
         actuator-select catalog import motors.csv --dry-run
+        actuator-select catalog copy my-motor --as my-motor-24v nominal_voltage_v=24
+        actuator-select catalog history my-motor
         actuator-select catalog check
     """
 
 
-for subcommand in (list_rows, show, fields, add, import_file, export, check):
+for subcommand in (list_rows, show, fields, add, edit, copy, remove, history, diff, import_file, export, check):
     command.add_command(subcommand)

@@ -12,3 +12,10 @@ def printed(value: Any) -> str:  # noqa: ANN401 - any value of the catalogue
 
     text = UNKNOWN if value is None else write_value(value)
     return f"{value:.6g}" if isinstance(value, float) and len(text) > _PRINTED_LENGTH else text
+
+
+def exact(value: Any) -> str:  # noqa: ANN401 - any value of the catalogue
+    """A value as text with all its digits, so that two different ones never look the same."""
+    from actuator_select.database.cells import write_value
+
+    return UNKNOWN if value is None else write_value(value)

@@ -1,0 +1,58 @@
+"""Which row somebody means."""
+
+from collections.abc import Sequence
+
+import sqlalchemy as sa
+
+from actuator_select.database import queries
+from actuator_select.database.fields import Kind
+from actuator_select.database.kinds import KINDS, find_kind
+from actuator_select.errors import UnknownName, did_you_mean
+
+_LISTED_NAMES = 12  # more names than these are not listed in a message
+
+
+def locate(
+    connection: sa.Connection, row_id: str, kind: str | None = None, also: Sequence[str] = ()
+) -> tuple[Kind, str]:
+    """Find a row by what somebody calls it.
+
+    Parameters
+    ----------
+    connection : sqlalchemy.Connection
+        The catalogue.
+    row_id : str
+        The id; for actuators the name as well.
+    kind : str, optional
+        Where to look; everywhere by default.
+    also : sequence of str, optional
+        More names that the message may suggest.
+
+    Returns
+    -------
+    Kind, str
+        Its kind and id.
+
+    Raises
+    ------
+    UnknownName
+        If there is none, or several kinds have it.
+    """
+    kinds = list(KINDS.values()) if kind is None else [find_kind(kind)]
+    names = [(one, queries.fetch_names(connection, one)) for one in kinds]
+    found = [(one, known[row_id]) for one, known in names if row_id in known]
+    if len(found) == 1:
+        return found[0]
+    if found:
+        among = ", ".join(one.name for one, _ in found)
+        raise UnknownName(f"{row_id!r} is in {among}; state which with --kind")
+    where = "the catalogue" if kind is None else kinds[0].name
+    known_names = dict.fromkeys([*(name for _, known in names for name in known), *also])
+    raise UnknownName(f"there is no {row_id!r} in {where}; {_hint(row_id, list(known_names))}")
+
+
+def _hint(word: str, known: Sequence[str]) -> str:
+    hint = did_you_mean(word, known)
+    if len(known) > _LISTED_NAMES and hint.startswith("known are"):
+        return "`actuator-select catalog list KIND` shows what there is"
+    return hint
