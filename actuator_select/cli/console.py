@@ -11,6 +11,7 @@ from typing import Any
 import click
 
 PIPED_WIDTH = 200  # columns of a table that goes to a file or a pipe
+ANY_HEIGHT = 50  # lines; tables are not cut to it
 PROGRESS_DELAY = 1.0  # seconds before a progress bar appears
 
 
@@ -54,7 +55,8 @@ def emit_table(
         table.add_column(Text(name), justify="right" if index in right else "left", overflow="fold")
     for row in rows:
         table.add_row(*(Text(cell) for cell in row))
-    Console(width=terminal_width() or piped_width, highlight=False).print(table)
+    # With a height, too: rich takes every dumb terminal to have 80 columns otherwise.
+    Console(width=terminal_width() or piped_width, height=ANY_HEIGHT, highlight=False).print(table)
 
 
 def say(text: str) -> None:

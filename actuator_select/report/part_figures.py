@@ -109,7 +109,9 @@ def _draw_limit(axes: Axes, part: Characteristics, limit: Limit, dash: Literal["
     else:
         axes.axvline(limit.value, color=colour, linestyle=dash, linewidth=1.3)
     unit = part.load_unit if limit.of_load else part.speed_unit
-    return Line2D([], [], color=colour, linestyle=dash, linewidth=1.3, label=f"{limit.name}, {_figure(limit.value)} {unit}")
+    return Line2D(
+        [], [], color=colour, linestyle=dash, linewidth=1.3, label=f"{limit.name}, {_figure(limit.value)} {unit}"
+    )
 
 
 def _figure(value: float) -> str:
