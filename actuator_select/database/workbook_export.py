@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from openpyxl.worksheet._write_only import WriteOnlyWorksheet
 
 LARGEST_CELL = 32_767  # UTF-16 units in a cell of XLSX; openpyxl would cut off the rest
+_SURELY_FITS = LARGEST_CELL // 2  # characters, of at most two units each
 MOST_ROWS = 1_048_575  # of a sheet, below its header
 _TEXT_FORMAT = "@"  # a text that is edited in a spreadsheet stays one
 _WIDTHS = {"id": 30.0, "name": 30.0, "description": 40.0, "document": 50.0, "notes": 50.0}  # in characters
@@ -67,28 +68,28 @@ def _fill(sheet: "WriteOnlyWorksheet", kind: Kind, rows: Iterable[Mapping[str, V
     for cell in header:
         cell.font = Font(bold=True)
     sheet.append(header)
+    cells = [WriteOnlyCell(sheet) for _ in kind.fields]  # written at once, and used again for the next row
+    for cell, field in zip(cells, kind.fields, strict=True):
+        if field.is_text:
+            cell.number_format = _TEXT_FORMAT
     for number, row in enumerate(rows):
         if number == MOST_ROWS:
             raise InvalidRows(f"{kind.name} are more than the {MOST_ROWS} that a sheet holds; export CSV or JSON")
-        sheet.append([_cell(sheet, kind, field, row) for field in kind.fields])
+        sheet.append([_filled(cell, kind, field, row) for cell, field in zip(cells, kind.fields, strict=True)])
 
 
-def _cell(sheet: "WriteOnlyWorksheet", kind: Kind, field: Field, row: Mapping[str, Value]) -> "Cell | None":
-    from openpyxl.cell import WriteOnlyCell
-
+def _filled(cell: "Cell", kind: Kind, field: Field, row: Mapping[str, Value]) -> "Cell | None":
+    """Put a row's value into the cell of its column; None where it is unknown."""
     value = row[field.name]
     if value is None:
         return None
-    text = write_value(value) if not isinstance(value, str) else escape_text(value)
-    if len(text.encode("utf-16-le")) > 2 * LARGEST_CELL:
+    text = escape_text(value) if isinstance(value, str) else write_value(value)
+    if len(text) > _SURELY_FITS and len(text.encode("utf-16-le")) > 2 * LARGEST_CELL:
         place = f"{kind.singular} {row['id']}, {field.name}"
         expected = f"at most {LARGEST_CELL} characters, which is all that a cell of an XLSX file holds"
         problem = Problem(place=place, value=quoted(value), expected=expected, remedy="export CSV or JSON")
         raise InvalidRows("the XLSX file was not written", [problem])
-    cell = WriteOnlyCell(sheet, value=text)
-    is_number = not isinstance(value, str) and text != UNLIMITED
+    cell.value = text
     # Stated, not guessed: '=1+1' and '#N/A' are texts. A number is given by its digits, since openpyxl rounds floats.
-    cell.data_type = "n" if is_number else "s"
-    if isinstance(value, str):
-        cell.number_format = _TEXT_FORMAT
+    cell.data_type = "s" if isinstance(value, str) or text == UNLIMITED else "n"
     return cell

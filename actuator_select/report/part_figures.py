@@ -17,7 +17,7 @@ ROOM = 1.12  # of the axes around the greatest figure
 TEXT_WIDTH = 105  # characters of a line below the axes
 WIDTH, HEIGHT = 6.8, 3.7  # of the axes, inches
 ENTRY_HEIGHT, LINE_HEIGHT = 0.17, 0.14  # of a line of the legend and of a remark, inches
-COLOURS = {Duty.CONTINUOUS: BLUE, Duty.SHORT: ORANGE, Duty.VOLTAGE: RED, Duty.PART: GREEN, Duty.EMERGENCY: RED}
+COLOURS = {Duty.CONTINUOUS: BLUE, Duty.SHORT: ORANGE, Duty.PART: GREEN, Duty.EMERGENCY: RED}
 DASHES: tuple[Literal["-", "--", "-.", ":"], ...] = ("-", "--", "-.", ":")
 
 

@@ -24,7 +24,6 @@ class Duty(Enum):
 
     CONTINUOUS = "continuous"
     SHORT = "short"
-    VOLTAGE = "voltage"
     PART = "part"
     EMERGENCY = "emergency"
 
