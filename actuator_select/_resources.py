@@ -4,9 +4,12 @@ import errno
 import os
 import stat
 import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
+from typing import BinaryIO
 
-from actuator_select.errors import OutputNotWritable
+from actuator_select.errors import ActuatorSelectError, OutputNotWritable
 
 _PACKAGE = Path(__file__).resolve().parent
 
@@ -97,27 +100,39 @@ def replace_atomically(path: Path, content: str | bytes) -> None:
     """
     # A name typed in another encoding must not cost the report.
     data = content.encode(errors="replace") if isinstance(content, str) else content
+    with replacing(path) as file:
+        file.write(data)
+
+
+@contextmanager
+def replacing(path: Path) -> Iterator[BinaryIO]:
+    """Write a file piece by piece, and put it in its place only when it is whole; as `replace_atomically`.
+
+    Yields
+    ------
+    binary file
+        To write to.
+    """
     try:
         if path.is_dir():
             raise IsADirectoryError(errno.EISDIR, "it is a folder")
-        if path.exists() and not path.is_file():
-            path.write_bytes(data)
-            return
-        target = path.resolve(strict=path.is_symlink())
+        special = path.exists() and not path.is_file()
+        target = path if special else path.resolve(strict=path.is_symlink())
         mode = stat.S_IMODE(target.stat().st_mode) if target.exists() else 0o666 & ~_umask()
-        handle, temporary = tempfile.mkstemp(dir=target.parent, prefix=".actuator-select-")
+        handle, temporary = (0, "") if special else tempfile.mkstemp(dir=target.parent, prefix=".actuator-select-")
     except (OSError, RuntimeError) as error:  # RuntimeError: links in a circle
         raise OutputNotWritable(_cannot_write(path, error)) from error
     try:
-        with os.fdopen(handle, "wb") as file:
-            file.write(data)
-        Path(temporary).chmod(mode)
-        Path(temporary).replace(target)
-    except OSError as error:
-        Path(temporary).unlink(missing_ok=True)
-        raise OutputNotWritable(_cannot_write(path, error)) from error
-    except BaseException:
-        Path(temporary).unlink(missing_ok=True)
+        with path.open("wb") if special else os.fdopen(handle, "wb") as file:
+            yield file
+        if not special:
+            Path(temporary).chmod(mode)
+            Path(temporary).replace(target)
+    except BaseException as error:
+        if not special:
+            Path(temporary).unlink(missing_ok=True)
+        if isinstance(error, OSError) and not isinstance(error, ActuatorSelectError):
+            raise OutputNotWritable(_cannot_write(path, error)) from error
         raise
 
 

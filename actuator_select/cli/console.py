@@ -11,6 +11,7 @@ from typing import Any
 import click
 
 PIPED_WIDTH = 200  # columns of a table that goes to a file or a pipe
+ANY_HEIGHT = 50  # lines; tables are not cut to it
 PROGRESS_DELAY = 1.0  # seconds before a progress bar appears
 
 
@@ -28,8 +29,20 @@ def emit_csv(header: Sequence[str], rows: Sequence[Sequence[object]]) -> None:
     click.echo(text.getvalue(), nl=False)
 
 
+def terminal_width() -> int | None:
+    """Characters in a line of the terminal; None where the result goes to a file or a pipe."""
+    from shutil import get_terminal_size
+
+    return get_terminal_size().columns if sys.stdout.isatty() else None
+
+
 def emit_table(
-    header: Sequence[str], rows: Sequence[Sequence[str]], *, right: Sequence[int] = (), title: str | None = None
+    header: Sequence[str],
+    rows: Sequence[Sequence[str]],
+    *,
+    right: Sequence[int] = (),
+    title: str | None = None,
+    piped_width: int = PIPED_WIDTH,
 ) -> None:
     """Print a table for people; `right` lists the columns that are aligned to the right."""
     from rich import box
@@ -42,7 +55,8 @@ def emit_table(
         table.add_column(Text(name), justify="right" if index in right else "left", overflow="fold")
     for row in rows:
         table.add_row(*(Text(cell) for cell in row))
-    Console(width=None if sys.stdout.isatty() else PIPED_WIDTH, highlight=False).print(table)
+    # With a height, too: rich takes every dumb terminal to have 80 columns otherwise.
+    Console(width=terminal_width() or piped_width, height=ANY_HEIGHT, highlight=False).print(table)
 
 
 def say(text: str) -> None:

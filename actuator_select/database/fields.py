@@ -148,7 +148,7 @@ class Kind:
     fields : tuple of Field
         Columns that users fill, in the order of the CSV file.
     shown : tuple of str
-        Columns of the table for people.
+        Columns of the table for people, the most important first; narrow terminals leave out the last.
     orders : tuple of Order
         Relations between columns that physics enforces.
     any_of : tuple of tuple of str

@@ -131,7 +131,7 @@ SOURCES = Kind(
         _text("provenance", "Of what kind the document is, such as journal_article or manufacturer_datasheet"),
         _text("notes", "What else a reader has to know"),
     ),
-    shown=("id", "document", "publisher", "date", "url", "doi", "page"),
+    shown=("id", "document", "date", "publisher", "page", "doi", "url"),
     any_of=(("page", "url", "doi"), ("date", "accessed_date")),
 )
 
@@ -194,16 +194,17 @@ MOTORS = Kind(
     ),
     shown=(
         "id",
-        "manufacturer",
-        "part_number",
         "rated_power_w",
         "nominal_voltage_v",
         "rated_speed_rpm",
         "rated_torque_nm",
-        "torque_constant_nm_per_a",
-        "terminal_resistance_ohm",
+        "standstill_torque_nm",
+        "peak_torque_nm",
         "rotor_inertia_g_cm2",
         "mass_kg",
+        "max_speed_rpm",
+        "manufacturer",
+        "part_number",
     ),
     orders=(
         Order(greater="peak_torque_nm", lesser="rated_torque_nm"),
@@ -243,8 +244,6 @@ GEARBOXES = Kind(
     ),
     shown=(
         "id",
-        "manufacturer",
-        "part_number",
         "ratio",
         "efficiency_percent",
         "max_efficiency_percent",
@@ -252,7 +251,10 @@ GEARBOXES = Kind(
         "max_intermittent_torque_nm",
         "max_continuous_input_speed_rpm",
         "inertia_input_g_cm2",
+        "backlash_arcmin",
         "mass_kg",
+        "manufacturer",
+        "part_number",
     ),
     # Not the input speeds: a real datasheet (maxon 166954) allows less for short than continuously.
     orders=(Order(greater="max_intermittent_torque_nm", lesser="max_continuous_torque_nm"),),
@@ -290,7 +292,7 @@ WINCHES = Kind(
         *_PRICE,
         *_PROVENANCE,
     ),
-    shown=("id", "manufacturer", "name", "drum_radius_mm", "drum_length_mm", "drum_inertia_kg_m2", "max_tension_n"),
+    shown=("id", "name", "drum_radius_mm", "drum_length_mm", "drum_inertia_kg_m2", "max_tension_n", "manufacturer"),
 )
 
 
@@ -329,7 +331,7 @@ ROPES = Kind(
         *_PRICE,
         *_PROVENANCE,
     ),
-    shown=("id", "manufacturer", "name", "construction", "diameter_mm", "breaking_force_n", "mass_kg_per_m"),
+    shown=("id", "diameter_mm", "breaking_force_n", "mass_kg_per_m", "construction", "manufacturer", "name"),
 )
 
 ACTUATORS = Kind(

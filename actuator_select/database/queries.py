@@ -1,6 +1,6 @@
 """Every SQL statement of the program."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -14,6 +14,7 @@ from actuator_select.database.schema import CHANGES, SHIPPED_ROWS, STATE, TABLES
 Row = dict[str, Value]
 
 _IDS_PER_QUERY = 500  # stays below the number of parameters that any database takes
+_ROWS_PER_FETCH = 1000  # rows in memory at once where all are gone through
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -95,6 +96,19 @@ def fetch_cells(connection: sa.Connection, kind: Kind, ids: Sequence[str]) -> se
     table = TABLES[kind.name]
     query = sa.select(*(table.c[field.name] for field in kind.fields)).where(table.c.id.in_(ids))
     return set(map(tuple, connection.execute(query)))
+
+
+def stream_own_rows(
+    connection: sa.Connection, kind: Kind, condition: sa.ColumnElement[bool] | None = None
+) -> Iterator[Row]:
+    """Rows without their parts' columns, by id, which need not fit into memory together."""
+    table = TABLES[kind.name]
+    query = sa.select(*(table.c[field.name] for field in kind.columns)).order_by(table.c.id)
+    if condition is not None:
+        query = query.select_from(_source(kind)).where(condition)
+    names = [field.name for field in kind.columns]
+    for values in connection.execution_options(yield_per=_ROWS_PER_FETCH).execute(query):
+        yield dict(zip(names, values, strict=True))
 
 
 def fetch_values(connection: sa.Connection, kind: Kind, column: str) -> dict[str, str]:

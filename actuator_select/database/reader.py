@@ -1,17 +1,18 @@
 """Reading a catalogue: rows, parts, sources, history, exports."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import AbstractContextManager
 from pathlib import Path
 from types import TracebackType
-from typing import TYPE_CHECKING, Self
+from typing import TYPE_CHECKING, Any, Self
 
 import sqlalchemy as sa
 
+from actuator_select._resources import replacing
 from actuator_select.database import queries
 from actuator_select.database.connection import reading
 from actuator_select.database.content import catalogue_digest
-from actuator_select.database.export import rows_as_csv, write_folder
+from actuator_select.database.export import csv_pieces, json_pieces, make_folder
 from actuator_select.database.history import Change
 from actuator_select.database.kinds import KINDS, find_kind
 from actuator_select.database.naming import locate
@@ -19,6 +20,8 @@ from actuator_select.database.queries import Row
 
 if TYPE_CHECKING:
     import pandas as pd
+
+    from actuator_select.database.fields import Kind
 
 
 class ReadableCatalogue:
@@ -79,13 +82,11 @@ class ReadableCatalogue:
             If the condition or the order cannot be understood.
         """
         found = find_kind(kind)
-        condition, order = None, []
-        if where or sort:
-            # Building the parser takes longer than reading a small catalogue.
-            from actuator_select.database.where import compile_condition, compile_sort
+        condition, order = _condition(found, where), list[sa.ColumnElement[Any]]()
+        if sort:
+            from actuator_select.database.where import compile_sort
 
-            columns = queries.columns_of(found)
-            condition, order = compile_condition(where, columns), compile_sort(sort, columns)
+            order = compile_sort(sort, queries.columns_of(found))
         with reading(self._engine) as connection:
             return queries.fetch_rows(connection, found, condition, order)
 
@@ -151,9 +152,7 @@ class ReadableCatalogue:
             64 hexadecimal digits, equal for equal contents, whatever the database and the order of the rows.
         """
         with reading(self._engine) as connection:
-            return catalogue_digest(
-                (kind, row) for kind in KINDS.values() for row in queries.fetch_own_rows(connection, kind).values()
-            )
+            return _fingerprint(connection)
 
     def history(self, row_id: str, kind: str | None = None) -> list[Change]:
         """What happened to a row, also to one that is gone.
@@ -187,22 +186,89 @@ class ReadableCatalogue:
         """Transaction that reads, for what this class has no method for."""
         return reading(self._engine)
 
-    def export_csv(self, kind: str) -> str:
+    def export_csv(self, kind: str, where: str = "") -> str:
         """Rows of one kind as CSV text that `import_csv` reads back exactly.
 
         Parameters
         ----------
         kind : str
             Kind of the rows.
+        where : str, optional
+            Condition, as for `rows`.
 
         Returns
         -------
         str
             With every column that users fill, by id.
         """
-        found = find_kind(kind)
+        return "".join(self.export_pieces("csv", kind, where))
+
+    def export_pieces(self, file_format: str, kind: str | None = None, where: str = "") -> Iterator[str]:
+        """Rows as the text of a file, piece by piece: many rows need not fit into memory.
+
+        Parameters
+        ----------
+        file_format : str
+            ``csv`` or ``json``.
+        kind : str, optional
+            Kind of the rows; JSON takes all kinds by default.
+        where : str, optional
+            Condition over the rows of that kind, as for `rows`.
+
+        Yields
+        ------
+        str
+            Piece of the file.
+
+        Raises
+        ------
+        UnknownName, InvalidExpression
+            As for `rows`.
+        ValueError
+            If one file cannot hold what is asked for.
+        """
+        kinds = _kinds(kind, where)
+        if file_format == "csv" and len(kinds) > 1:
+            raise ValueError("a CSV file holds rows of one kind")
+        condition = _condition(kinds[0], where)
         with reading(self._engine) as connection:
-            return rows_as_csv(found, queries.fetch_own_rows(connection, found).values())
+            streams = [(one, queries.stream_own_rows(connection, one, condition)) for one in kinds]
+            if file_format == "csv":
+                yield from csv_pieces(*streams[0])
+            else:
+                yield from json_pieces(streams, _fingerprint(connection))
+
+    def export_file(self, path: str | Path, file_format: str, kind: str | None = None, where: str = "") -> None:
+        """Write rows to a file, whole or not at all.
+
+        Parameters
+        ----------
+        path : str or Path
+            The file.
+        file_format : str
+            ``csv``, ``json`` or ``xlsx``.
+        kind, where : str, optional
+            As for `export_pieces`; XLSX takes all kinds by default, too.
+
+        Raises
+        ------
+        OutputNotWritable
+            If the file cannot be written.
+        InvalidRows
+            If the format cannot hold a row.
+        UnknownName, InvalidExpression, ValueError
+            As for `export_pieces`.
+        """
+        kinds = _kinds(kind, where)
+        condition = _condition(kinds[0], where)
+        with replacing(Path(path)) as file:
+            if file_format == "xlsx":
+                from actuator_select.database.workbook_export import write_workbook
+
+                with reading(self._engine) as connection:
+                    write_workbook(file, [(one, queries.stream_own_rows(connection, one, condition)) for one in kinds])
+            else:
+                file.writelines(piece.encode() for piece in self.export_pieces(file_format, kind, where))
 
     def export_folder(self, path: str | Path) -> list[Path]:
         """Write every kind to a CSV file.
@@ -222,6 +288,32 @@ class ReadableCatalogue:
         OutputNotWritable
             If a file cannot be written.
         """
+        make_folder(Path(path))
+        files = [Path(path) / f"{kind}.csv" for kind in KINDS]
         with reading(self._engine) as connection:
-            rows = {kind: queries.fetch_own_rows(connection, kind).values() for kind in KINDS.values()}
-        return write_folder(Path(path), {kind.name: rows_as_csv(kind, found) for kind, found in rows.items()})
+            for file, kind in zip(files, KINDS.values(), strict=True):
+                with replacing(file) as opened:
+                    pieces = csv_pieces(kind, queries.stream_own_rows(connection, kind))
+                    opened.writelines(piece.encode() for piece in pieces)
+        return files
+
+
+def _kinds(kind: str | None, where: str) -> list["Kind"]:
+    if kind is not None:
+        return [find_kind(kind)]
+    if where:
+        raise ValueError("a condition is over the columns of one kind; name it")
+    return list(KINDS.values())
+
+
+def _condition(kind: "Kind", where: str) -> sa.ColumnElement[bool] | None:
+    if not where:
+        return None
+    # Building the parser takes longer than reading a small catalogue.
+    from actuator_select.database.where import compile_condition
+
+    return compile_condition(where, queries.columns_of(kind))
+
+
+def _fingerprint(connection: sa.Connection) -> str:
+    return catalogue_digest((kind, row) for kind in KINDS.values() for row in queries.stream_own_rows(connection, kind))

@@ -127,7 +127,7 @@ def test_a_minus_begins_with_the_greatest(run: Run) -> None:
 def test_a_limit_says_how_many_there_are(run: Run) -> None:
     _, out, err = run("list", "motors", "--limit", "2", "--columns", "id")
     assert out.count("beckhoff") == 2
-    assert err == f"2 of {SHIPPED_MOTORS} motors\n"
+    assert err == f"2 of {SHIPPED_MOTORS} motors; a greater --limit, or none, shows more than 2\n"
 
 
 @pytest.mark.parametrize(
@@ -163,7 +163,7 @@ def test_a_question_that_cannot_be_posed_is_explained(run: Run, arguments: list[
 def test_show_gives_figures_parts_source_and_findings(run: Run) -> None:
     status, out, err = run("show", "Actuator 4")
     assert status == 0
-    for words in ("rated torque [N m]", "0.212", "drum radius [mm]", "Mirjana Filipović", "10.22190/FUACR1802071F"):
+    for words in ("rated torque", "0.212 N m", "80 mm", "Mirjana Filipović", "10.22190/FUACR1802071F"):
         assert words in out
     assert "Warning: motors filipovic-kevac-2018-motor-4" in err
 

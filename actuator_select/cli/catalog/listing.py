@@ -5,13 +5,17 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from actuator_select.cli import console, options
-from actuator_select.cli.catalog.cells import printed
+from actuator_select.cli.catalog.cells import fitting, folded, printed, shortened
 from actuator_select.cli.catalog.session import opened
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from actuator_select.database.fields import Kind
     from actuator_select.database.queries import Column
+
+UNBOUNDED = 100_000  # characters in a line that nobody has to see on a screen
+MARK = "!"
 
 
 @click.command("list")
@@ -33,7 +37,8 @@ def list_rows(
     """List rows of one KIND: sources, motors, gearboxes, winches, ropes or actuators.
 
     Actuators can be filtered, sorted and shown by the columns of their parts: motor.rated_power_w, gearbox.ratio,
-    winch.drum_radius_mm. The bare name does where it is unique. CSV and JSON give every column.
+    winch.drum_radius_mm. The bare name does where it is unique. A terminal shows the most important columns that fit,
+    long texts cut; a pipe gets them whole. CSV and JSON give every column. – is unknown, ! a row to look at.
 
     \b
     Conditions:
@@ -46,6 +51,7 @@ def list_rows(
     Examples:
         actuator-select catalog list actuators --where "rated_power_w >= 50" --sort rated_torque_nm
         actuator-select catalog list motors --columns id,rated_torque_nm,mass_kg --limit 10
+        actuator-select catalog list motors --where "peak_torque_nm >= 3 and mass_kg < 4" --sort -peak_torque_nm
         actuator-select catalog list gearboxes --format csv
     """
     from actuator_select.database.cells import write_value
@@ -67,24 +73,37 @@ def list_rows(
         names = [column.name for column in chosen or every]
         click.echo(write_csv(names, ([write_value(row[name]) for name in names] for row in shown)), nl=False)
     elif output_format == "table":
-        _emit_rows(chosen or [column for column in every if column.name in found.shown], shown)
-        of = "" if len(shown) == len(rows) else f" of {len(rows)}"
-        console.say(f"{len(shown)}{of} {found.singular if len(rows) == 1 else found.name}")
+        if chosen:
+            _emit_rows(chosen, shown)
+        else:
+            by_name = {column.name: column for column in every}
+            _emit_rows([by_name[name] for name in found.shown], shown, _marks(found, shown), fit=True)
+        _say_count(found, len(shown), len(rows))
+
+
+def _say_count(kind: "Kind", shown: int, found: int) -> None:
+    noun = kind.singular if found == 1 else kind.name
+    cut = "" if shown == found else f" of {found}"
+    console.say(f"{shown}{cut} {noun}" + (f"; a greater --limit, or none, shows more than {shown}" if cut else ""))
 
 
 @click.command("fields")
 @click.argument("kind", metavar="KIND")
 @options.format_option("table", "json")
 def fields(kind: str, output_format: str) -> None:
-    """List the columns of one KIND: name, what may stand there, unit, meaning.
+    """List the columns of one KIND: name, what may stand there, unit, meaning, name in OPC 40400-1, conventions.
 
     \b
-    Example:
+    Examples:
         actuator-select catalog fields motors
+        actuator-select catalog fields gearboxes --format json
     """
+    from actuator_select.database.conventions import CONVENTIONS
     from actuator_select.database.kinds import find_kind
+    from actuator_select.database.opc import opc_name
 
     found = find_kind(kind)
+    opc = {field.name: name for field in found.fields if (name := opc_name(found, field.name)) != field.name}
     if output_format == "json":
         records = [
             {
@@ -95,15 +114,26 @@ def fields(kind: str, output_format: str) -> None:
                 "required": field.required,
                 "description": field.description,
                 "aliases": list(field.aliases),
+                "opc_name": opc.get(field.name),
+                "conventions": dict(CONVENTIONS.get(field.name, {})),
             }
             for field in found.fields
         ]
         console.emit_json({"kind": found.name, "fields": records})
         return
+    header = ["column", "what may stand there", "", "meaning"]
     rows = [
         [field.name, field.expected, "required" if field.required else "", field.description] for field in found.fields
     ]
-    console.emit_table(["column", "what may stand there", "", "meaning"], rows, title=found.description)
+    if opc:
+        header.append("OPC 40400-1")
+        rows = [[*row, opc.get(row[0], "")] for row in rows]
+    console.emit_table(header, rows, title=found.description)
+    for field in found.fields:
+        if words := CONVENTIONS.get(field.name):
+            click.echo(f"{field.name}:")
+            for choice, meaning in words.items():
+                click.echo(f"  {choice:<18}{meaning}")
     if found.name == "actuators":
         console.say("Conditions also take the parts' columns, such as motor.rated_power_w: see catalog fields motors.")
 
@@ -116,10 +146,64 @@ def _chosen_columns(names: str, every: "Sequence[Column]") -> "list[Column]":
     return find_columns(names, every)
 
 
-def _emit_rows(columns: "Sequence[Column]", rows: "Sequence[dict[str, Any]]") -> None:
-    header = [_header(column) for column in columns]
-    right = [index for index, column in enumerate(columns) if not column.field.is_text]
-    console.emit_table(header, [[printed(row[column.name]) for column in columns] for row in rows], right=right)
+def _marks(kind: "Kind", rows: "Sequence[dict[str, Any]]") -> list[str]:
+    """A mark for every row that disagrees with itself, or whose parts do, or that was flagged when it was read."""
+    from actuator_select.database.kinds import ACTUATORS, ROLES
+    from actuator_select.selection import check_rows
+
+    def is_doubtful(part: str, row: dict[str, Any]) -> bool:
+        return row["check_status"] == "flag" or bool(check_rows(part, [row]))
+
+    if "check_status" not in {field.name for field in kind.fields}:
+        return [""] * len(rows)
+    doubts = [is_doubtful(kind.name, row) for row in rows]
+    if kind is ACTUATORS:
+        for role, part in ROLES.items():
+            known: dict[object, bool] = {None: False}  # actuators share parts
+            for index, row in enumerate(rows):
+                part_id = row[f"{role}_id"]
+                if part_id not in known:
+                    known[part_id] = is_doubtful(
+                        part.name, {field.name: row[f"{role}.{field.name}"] for field in part.columns}
+                    )
+                doubts[index] = doubts[index] or known[part_id]
+    return [MARK if doubt else "" for doubt in doubts]
+
+
+def _emit_rows(
+    columns: "Sequence[Column]", rows: "Sequence[dict[str, Any]]", marks: "Sequence[str]" = (), *, fit: bool = False
+) -> None:
+    """Print rows; with `fit`, no more columns than a terminal has room for."""
+    marked = any(marks)
+    headers = [_header(column) for column in columns]
+    cells = [[printed(row[column.name]) for column in columns] for row in rows]
+    width = console.terminal_width()
+    left_out = 0
+    if width is not None:
+        cells = [
+            [text if column.name == "id" else shortened(text) for column, text in zip(columns, row, strict=True)]
+            for row in cells
+        ]
+        count, folds = fitting(headers, cells, width - (len(MARK) + 2 if marked else 0))
+        count = count if fit else len(columns)
+        left_out = len(columns) - count
+        headers, cells = headers[:count], [row[:count] for row in cells]
+        if folds:
+            contents = [max((len(row[index]) for row in cells), default=0) for index in range(count)]
+            headers = [folded(label, content) for label, content in zip(headers, contents, strict=True)]
+    right = [index for index, column in enumerate(columns[: len(headers)]) if not column.field.is_text]
+    if marked:
+        headers = [*headers, ""]
+        cells = [[*row, mark] for row, mark in zip(cells, marks, strict=True)]
+    console.emit_table(headers, cells, right=right, piped_width=UNBOUNDED)
+    if marked:
+        click.echo(
+            f"{MARK} its figures disagree with each other, or were flagged when they were read; "
+            "`actuator-select catalog show ID` says why"
+        )
+    if left_out:
+        names = ", ".join(column.name for column in columns[len(columns) - left_out :])
+        click.echo(f"Not shown for want of room: {names}; --columns chooses.")
 
 
 def _header(column: "Column") -> str:
