@@ -4,7 +4,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from actuator_select.database.cells import Reader, Value, quoted, read_value, reader_of
+from actuator_select.database.cells import Reader, Refused, Value, quoted, read_value, reader_of
 from actuator_select.database.fields import Field, Kind
 from actuator_select.database.suggestions import suggestion
 from actuator_select.database.tables import Table
@@ -89,11 +89,12 @@ def read_heading(
     Heading, list of Problem
         What was understood, and what was not.
     """
-    constants = _constants(kind, mapping, source)
+    constants, problems = _constants(kind, mapping, source)
     if mapping is None or not mapping.columns:
-        targets, problems = _own_columns(kind, table, mapping)
+        targets, more = _own_columns(kind, table, mapping)
     else:
-        targets, problems = _mapped_columns(kind, table, mapping)
+        targets, more = _mapped_columns(kind, table, mapping)
+    problems += more
     taken = {field.name for _, field, _ in targets}
     problems += [
         Problem(
@@ -116,14 +117,22 @@ def read_heading(
 _Targets = list[tuple[int, Field, Reader]]
 
 
-def _constants(kind: Kind, mapping: "ColumnMapping | None", source: str | None) -> tuple[Constant, ...]:
+def _constants(
+    kind: Kind, mapping: "ColumnMapping | None", source: str | None
+) -> tuple[tuple[Constant, ...], list[Problem]]:
     stated: Iterable[tuple[str, object, str]] = ()
     if mapping is not None:
         stated = ((name, value, f"{mapping.name}, constants.{name}") for name, value in mapping.constants.items())
     if source is not None and "source_id" in kind.spellings:
         stated = (*(one for one in stated if one[0] != "source_id"), ("source_id", source, "--source"))
-    found = ((kind.spellings[name], value, place) for name, value, place in stated)
-    return tuple(Constant(field=field, value=read_value(field, value), place=place) for field, value, place in found)
+    constants, problems = [], []
+    for name, value, place in stated:
+        field = kind.spellings[name]
+        try:
+            constants.append(Constant(field=field, value=read_value(field, value), place=place))
+        except Refused as refused:
+            problems.append(refused.at(place, value))
+    return tuple(constants), problems
 
 
 def _own_columns(kind: Kind, table: Table, mapping: "ColumnMapping | None") -> tuple[_Targets, list[Problem]]:

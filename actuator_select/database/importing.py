@@ -112,8 +112,16 @@ def tables_of(
     UnknownName
         If a kind or a sheet does not exist or cannot be told.
     """
-    wanted = find_kind(kind).name if kind is not None else mapping.kind if mapping is not None else None
+    wanted = None if kind is None else find_kind(kind).name
+    form = None
+    if mapping is not None:
+        form, mapped = mapping.csv_format, find_kind(mapping.kind).name
+        if wanted not in {None, mapped}:
+            raise UnknownName(f"the mapping {mapping.name} is for {mapped}, not {wanted}; drop --kind, or take another")
+        wanted = mapped
     suffix = path.suffix.casefold()
+    if sheet is not None and suffix != ".xlsx":
+        raise UnknownName(f"{path.name} is no XLSX workbook and has no sheet {sheet!r}; drop --sheet")
     if suffix == ".xlsx":
         from actuator_select.database.xlsx_table import xlsx_tables
 
@@ -127,9 +135,9 @@ def tables_of(
     elif path.is_dir():
         named = {one: path / f"{one}.csv" for one in KINDS}
         files = [file for one, file in named.items() if file.is_file() and wanted in {None, one}]
-        yield _with_kinds([read_csv(file) for file in files], path, wanted)
+        yield _with_kinds([read_csv(file, form) for file in files], path, wanted)
     else:
-        table = read_csv(path, None if mapping is None else mapping.csv_format)
+        table = read_csv(path, form)
         if mapping is not None and mapping.layout == "one-to-many":
             table = one_to_many(table)
         yield [(find_kind(wanted or kind_of(table)), table)]

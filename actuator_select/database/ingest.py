@@ -18,6 +18,8 @@ from actuator_select.errors import InvalidRows, Problem
 
 __all__ = ["Plan", "Record", "in_order", "plan_rows", "read_record", "read_records", "refuse", "write_plan"]
 
+_COMPARED_NAMES = 50_000  # pairs; comparing them takes about a second
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Plan:
@@ -190,8 +192,7 @@ def _unknown_references(
         missing -= set(seen.places(other, "id", missing))
     if not missing:
         return []
-    known = list(queries.fetch_values(connection, other, "id"))
-    remedies = {value: _remedy(value, other, known) for value in missing}
+    remedies = _remedies(connection, sorted(missing), other)
     return [
         Problem(place=record.at(field.name), value=quoted(value), expected=field.expected, remedy=remedies[value])
         for _, value, record in places_of(records, field.name)
@@ -199,6 +200,11 @@ def _unknown_references(
     ]
 
 
-def _remedy(value: str, other: Kind, known: Sequence[str]) -> str:
-    hint = suggestion(value, known, f"catalog list {other.name}")
-    return f"{hint} (import {other.name}.csv first, or add the {other.singular})"
+def _remedies(connection: sa.Connection, missing: Sequence[str], other: Kind) -> dict[str, str]:
+    """What to do for every missing id; near names only for a few, because comparing many with many takes minutes."""
+    command = f"catalog list {other.name}"
+    few = len(missing) * queries.count_rows(connection, other) <= _COMPARED_NAMES
+    known = list(queries.fetch_values(connection, other, "id")) if few else []
+    rest = f"(import {other.name}.csv first, or add the {other.singular})"
+    lists = f"`actuator-select {command}` lists what there is"
+    return {value: f"{suggestion(value, known, command) if few else lists} {rest}" for value in missing}

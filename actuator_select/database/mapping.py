@@ -8,6 +8,7 @@ import codecs
 import re
 import tomllib
 from collections.abc import Iterator, Sequence
+from datetime import date
 from difflib import get_close_matches
 from pathlib import Path
 from typing import Annotated, Any, Literal
@@ -80,6 +81,15 @@ def _as_list(value: object) -> object:
     return value if isinstance(value, list) else [value]
 
 
+def _as_cell(value: object) -> object:
+    """A constant as a cell: TOML's dates are texts here."""
+    if isinstance(value, date):
+        return value.isoformat()
+    if isinstance(value, str | int | float):
+        return value
+    raise ValueError("a text or a number is expected")
+
+
 class Mapping(_Strict):
     """A mapping as its file states it.
 
@@ -116,12 +126,14 @@ class Mapping(_Strict):
     missing: list[str] = []
     csv: Writing = Writing()
     columns: dict[str, Annotated[list[Filling], BeforeValidator(_as_list)]] = {}
-    constants: dict[str, str | int | float] = {}
+    constants: dict[str, Annotated[Any, BeforeValidator(_as_cell)]] = {}
 
     @property
     def csv_format(self) -> CsvFormat:
         """How CSV files are read."""
-        return CsvFormat(delimiter=self.csv.delimiter, encoding=self.csv.encoding, header=self.csv.header)
+        # A byte order mark is no part of the first column's name.
+        encoding = "utf-8-sig" if codecs.lookup(self.csv.encoding).name == "utf-8" else self.csv.encoding
+        return CsvFormat(delimiter=self.csv.delimiter, encoding=encoding, header=self.csv.header)
 
     @property
     def id_columns(self) -> list[str]:
@@ -202,14 +214,16 @@ def _schema_problem(name: str, error: Any) -> Problem:  # noqa: ANN401 - pydanti
         return Problem(place=place, value=quoted(path[-1]), expected=expected, remedy=remedy)
     if error["type"] == "missing":
         return Problem(place=place, value="empty", expected='a kind such as kind = "motors"', remedy="add it")
-    expected = error["msg"].removeprefix("Input should be ").replace("Input", "a value that")
+    expected = (
+        error["msg"].removeprefix("Input should be ").removeprefix("Value error, ").replace("Input", "a value that")
+    )
     return Problem(place=place, value=quoted(error["input"]), expected=expected)
 
 
 def _writing_problems(mapping: Mapping) -> Iterator[Problem]:
     place = f"{mapping.name}, csv"
     try:
-        codecs.lookup(mapping.csv.encoding)
+        "".encode(mapping.csv.encoding)
     except LookupError:
         expected = "an encoding such as utf-8, cp1252 or utf-16"
         yield Problem(place=f"{place}.encoding", value=quoted(mapping.csv.encoding), expected=expected)

@@ -1,6 +1,7 @@
 """Sheets of XLSX workbooks as tables: the values that the spreadsheet program shows, read row by row."""
 
 import zipfile
+import zlib
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
     from openpyxl.worksheet._read_only import ReadOnlyWorksheet
 
 _BLOCK = 1 << 20  # bytes that are looked at together
+_BROKEN = (zipfile.BadZipFile, zlib.error, EOFError, SyntaxError, KeyError, ValueError, TypeError)  # of a damaged file
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,7 +69,7 @@ def xlsx_tables(path: Path) -> Iterator[list[Table]]:
         formulas = load_workbook(path, read_only=True) if _has_formulas(path) else None
     except OSError as error:
         raise InvalidRows(f"cannot read {path}: {error.strerror or error}; check the name of the file") from error
-    except (InvalidFileException, zipfile.BadZipFile, KeyError, ValueError) as error:
+    except (InvalidFileException, *_BROKEN) as error:
         raise InvalidRows(f"{path.name} is no XLSX workbook ({error}); save it again as .xlsx or CSV") from error
     try:
         tables = [
@@ -121,7 +123,10 @@ def _rows(sheet: "ReadOnlyWorksheet", formulas: "ReadOnlyWorksheet | None") -> I
 
 
 def _values(sheet: Any) -> Iterator[tuple[Any, ...]]:  # noqa: ANN401 - its stubs leave out what it inherits
-    yield from sheet.iter_rows(values_only=True)
+    try:
+        yield from sheet.iter_rows(values_only=True)
+    except _BROKEN as error:
+        raise InvalidRows(f"the sheet {sheet.title} cannot be read ({error}); save the workbook again") from error
 
 
 def _below(sheet: "ReadOnlyWorksheet", formulas: "ReadOnlyWorksheet | None", header: int, width: int) -> Iterator[Line]:

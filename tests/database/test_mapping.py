@@ -257,3 +257,30 @@ def test_pairs_that_would_get_the_same_id_are_refused(catalogue: Catalogue, writ
     path = write_csv("compatibility.csv", "IN_22,GI_1,GI_2\nIN_22,GI_1\n")
     with pytest.raises(InvalidRows, match=r"line 2, id: 'IN_22--GI_1', expected another id than"):
         catalogue.import_file(path, mapping="mgdb-compatibility", source="filipovic-kevac-2018")
+
+
+def test_a_kind_that_is_not_the_mappings_is_refused(catalogue: Catalogue, write_csv: Write) -> None:
+    with pytest.raises(UnknownName, match=r"mgdb-motors\.toml is for motors, not gearboxes"):
+        catalogue.import_file(write_csv("m.csv", MGDB_MOTORS), "gearboxes", mapping="mgdb-motors", source="x")
+
+
+def test_a_list_in_another_encoding_is_read_as_the_mapping_says(catalogue: Catalogue, tmp_path: Path) -> None:
+    (tmp_path / "list.csv").write_bytes("Name\tHersteller\nm1\tStöber\n".encode("cp1252"))
+    text = 'kind = "motor"\n[csv]\ndelimiter = "\\t"\nencoding = "{}"\n[columns]\nName = {{ field = "id" }}\n'
+    text += 'Hersteller = {{ field = "manufacturer" }}\n[constants]\naccessed_date = 2026-11-03\n'
+    (tmp_path / "list.toml").write_text(text.format("utf-8"))
+    with pytest.raises(InvalidRows, match=r"not UTF-8: byte 21 \(line 2\) is 0xF6"):
+        catalogue.import_file(tmp_path / "list.csv", mapping=tmp_path / "list.toml", source="filipovic-kevac-2018")
+    (tmp_path / "list.toml").write_text(text.format("cp1252"))
+    catalogue.import_file(tmp_path / "list.csv", mapping=tmp_path / "list.toml", source="filipovic-kevac-2018")
+    row = catalogue.part("m1")[1]
+    assert (row["manufacturer"], row["accessed_date"]) == ("Stöber", "2026-11-03")
+
+
+@pytest.mark.parametrize(
+    ("constants", "words"),
+    [({"notes": ["a"]}, "own.toml, constants.notes: .*a text or a number"), ({"rated_power": 1}, "did you mean")],
+)
+def test_a_constant_that_cannot_stand_is_explained(constants: dict[str, object], words: str) -> None:
+    with pytest.raises(InvalidRows, match=words):
+        read_mapping({"kind": "motors", "constants": constants}, "own.toml")
