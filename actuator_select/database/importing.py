@@ -176,7 +176,8 @@ def take_in(
     with remembering(connection) as seen:
         intake = _Intake(connection, seen, terms, progress, on_rows, sum(table.length for _, table in tables))
         reports = [intake.take(kind, table) for kind, table in tables]
-        if terms.replace:
+        if terms.replace and intake.has_no_problem:
+            # Otherwise rows that were not written would seem to be missing, and rows that stay to be in use.
             gone = {kind.name: intake.remove_others(kind) for kind, _ in reversed(tables)}
             reports = [replace(one, removed=one.removed + gone[one.kind]) for one in reports]
         intake.refuse(" and ".join(table.name for _, table in tables))
@@ -233,6 +234,11 @@ class _Intake:
         if not self._can_go_on:
             heading += f"; there are more than {_MOST_PROBLEMS} problems, the first of which are"
         raise InvalidRows(heading, _with_decimal_comma(problems[:_MOST_PROBLEMS]))
+
+    @property
+    def has_no_problem(self) -> bool:
+        """Whether nothing has been objected to yet."""
+        return not self._problems
 
     @property
     def _can_go_on(self) -> bool:
@@ -302,9 +308,8 @@ class _Intake:
             )
             for row_id, by in users.items()
         )
-        if not self._problems:
-            for batch in queries.batches(ids):
-                history.remove_rows(self._connection, kind, batch, by=self._terms.by)
+        for batch in queries.batches(row_id for row_id in ids if row_id not in users):
+            history.remove_rows(self._connection, kind, batch, by=self._terms.by)
         return len(ids)
 
     def _object(self, problems: "Sequence[Problem] | Iterator[Problem]") -> None:

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 
 _PRECISE = Context(prec=40)
 _ROUNDED = Context(prec=15)  # significant digits; every decimal of 15 digits survives a float
+_LEAST, _GREATEST = Decimal("1e-30"), Decimal("1e30")  # factors inside a unit, such as the 1000 of V/(1000 rpm)
 _DEFINITIONS = (
     "Nm = newton * meter",
     "oz_in = force_ounce * inch",
@@ -120,7 +121,8 @@ def conversion(unit: str, field: Field, *, reciprocal: bool = False) -> Conversi
     if unit.strip() == field.unit and not reciprocal:
         return Conversion(factor=Decimal(1))
     given, wanted = _quantity(unit), _quantity(field.unit)
-    if given.magnitude <= 0:
+    magnitude = Decimal(given.magnitude)
+    if not magnitude.is_finite() or not _LEAST < magnitude < _GREATEST:
         raise UnitRefused("is nothing to measure with; write it as mNm, g cm², oz-in, rpm/V, lb or V s/rad")
     if field.unit == "°C":
         return _temperature(unit, field)
@@ -157,12 +159,15 @@ def _quantity(unit: str) -> Any:  # noqa: ANN401 - pint's quantities have no sim
         # A factor may be part of a unit, as in V/(1000 rpm).
         if _is_temperature(unit):
             return _registry().Quantity(Decimal(1), "delta_degC")
-        quantity = _registry().parse_expression(spelt_for_pint(unit))
+        parsed = _registry().parse_expression(spelt_for_pint(unit))
+        units = getattr(parsed, "units", "dimensionless")
+        quantity = _registry().Quantity(Decimal(getattr(parsed, "magnitude", parsed)), units)
+        quantity.to_base_units()  # refuses what only a logarithm converts, such as dBm
     except pint.PintError as error:
         raise UnitRefused(f"is no known unit; write it as mNm, g cm², oz-in, rpm/V, lb or V s/rad ({error})") from error
     except Exception as error:  # whatever pint's parser of expressions runs into
         raise UnitRefused("cannot be read as a unit; write it as mNm, g cm², oz-in, rpm/V, lb or V s/rad") from error
-    return quantity if hasattr(quantity, "units") else _registry().Quantity(Decimal(str(quantity)), "dimensionless")
+    return quantity
 
 
 def _factor(given: Any, wanted: Any, unit: str, field: Field, *, reciprocal: bool = False) -> Decimal:  # noqa: ANN401

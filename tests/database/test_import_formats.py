@@ -1,6 +1,7 @@
 """Workbooks, JSON and folders: the same rows, the same checks, one transaction for all kinds."""
 
 import json
+import zipfile
 from collections.abc import Callable
 from datetime import date, datetime
 from math import inf
@@ -266,3 +267,29 @@ def _kept(catalogue: Catalogue) -> list[dict[str, object]]:
     """The shipped motors as rows of JSON."""
     rows = catalogue.rows("motors", where="origin = 'shipped'")
     return [{name: value for name, value in row.items() if name != "origin"} for row in rows]
+
+
+def test_a_replacement_with_a_bad_cell_tells_of_that_cell_only(catalogue: Catalogue, tmp_path: Path) -> None:
+    catalogue.export_folder(tmp_path / "all")
+    motors = tmp_path / "all" / "motors.csv"
+    lines = motors.read_text(encoding="utf-8").splitlines()
+    motors.write_text("\n".join([lines[0], "b" + "," * lines[0].count(","), *lines[1:]]), encoding="utf-8")
+    actuators = tmp_path / "all" / "actuators.csv"
+    actuators.write_text(actuators.read_text(encoding="utf-8").replace("2018-1,Actuator 1", "2018-new,Actuator 1"))
+    (told,) = refusal(catalogue, tmp_path / "all", replace=True)
+    assert told.startswith("motors.csv, line 2, source_id: empty")
+
+
+def test_a_damaged_sheet_is_told(catalogue: Catalogue, tmp_path: Path) -> None:
+    whole = write_xlsx(tmp_path / "whole.xlsx", {"motors": [["id", "source_id"], ["m1", SOURCE]]})
+    path = tmp_path / "motors.xlsx"
+    with zipfile.ZipFile(whole) as source, zipfile.ZipFile(path, "w") as target:
+        for name in source.namelist():
+            content = source.read(name)
+            target.writestr(name, content[:-30] if name.endswith("sheet1.xml") else content)
+    assert "the sheet motors cannot be read" in refusal(catalogue, path)[0]
+
+
+def test_only_a_workbook_has_sheets(catalogue: Catalogue, write_csv: Write) -> None:
+    with pytest.raises(UnknownName, match="is no XLSX workbook and has no sheet 'parts'"):
+        catalogue.import_file(write_csv("motors.csv", "id,source_id\na,$\n"), sheet="parts")

@@ -92,6 +92,8 @@ def test_other_spellings_of_the_own_unit_change_nothing(unit: str, field: Field)
         ("furlongs per elephant", SPEED, "no known unit|cannot be read"),
         ("__import__('os')", MASS, "no known unit|cannot be read"),
         ("0 kg", MASS, "nothing to measure with"),
+        ("nan", MASS, "nothing to measure with"),
+        ("1e999999 kg", MASS, "nothing to measure with"),
         ("EUR", GEARBOXES.field("price"), "no known unit"),
     ],
 )
