@@ -1,4 +1,4 @@
-"""Every SQL statement of the program."""
+"""Every SQL statement of the program but those of an import's temporary table (`seen`)."""
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass

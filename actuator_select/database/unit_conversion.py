@@ -159,7 +159,7 @@ def _quantity(unit: str) -> Any:  # noqa: ANN401 - pint's quantities have no sim
         # A factor may be part of a unit, as in V/(1000 rpm).
         if _is_temperature(unit):
             return _registry().Quantity(Decimal(1), "delta_degC")
-        parsed = _registry().parse_expression(spelt_for_pint(unit))
+        parsed: Any = _registry().parse_expression(spelt_for_pint(unit))
         units = getattr(parsed, "units", "dimensionless")
         quantity = _registry().Quantity(Decimal(getattr(parsed, "magnitude", parsed)), units)
         quantity.to_base_units()  # refuses what only a logarithm converts, such as dBm
