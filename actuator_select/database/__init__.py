@@ -4,13 +4,14 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from actuator_select.database.catalogue import Catalogue, ImportReport, open_catalogue
+    from actuator_select.database.catalogue import Catalogue, open_catalogue
     from actuator_select.database.comparing import compare
+    from actuator_select.database.importing import ImportReport
     from actuator_select.database.snapshot import open_for_reading
 
 __all__ = ["Catalogue", "ImportReport", "compare", "open_catalogue", "open_for_reading"]
 
-_MODULES = {"compare": "comparing", "open_for_reading": "snapshot"}
+_MODULES = {"ImportReport": "importing", "compare": "comparing", "open_for_reading": "snapshot"}
 
 
 def __getattr__(name: str) -> Any:  # noqa: ANN401 - any public name

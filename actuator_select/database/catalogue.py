@@ -1,48 +1,20 @@
 """The catalogue as the rest of the program and a notebook see it."""
 
+import dataclasses
 from collections.abc import Mapping
-from dataclasses import dataclass
 from pathlib import Path
 from types import MappingProxyType
+from typing import TYPE_CHECKING
 
 from actuator_select.database.changing import Edit, Removal, add_row, copy_row, edit_row, remove_row
 from actuator_select.database.connection import database_url, make_engine, prepare, writing
-from actuator_select.database.csv_table import read_csv
-from actuator_select.database.ingest import (
-    Progress,
-    find_kind_of,
-    plan_rows,
-    read_records,
-    refuse,
-    write_plan,
-)
+from actuator_select.database.importing import ImportReport, OnRows, Progress, Terms, tables_of, take_in
 from actuator_select.database.kinds import find_kind
 from actuator_select.database.queries import Row, fetch_row
 from actuator_select.database.reader import ReadableCatalogue
 
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class ImportReport:
-    """What an import did, or would do.
-
-    Attributes
-    ----------
-    kind : str
-        Kind of the rows.
-    added, updated, unchanged : int
-        Numbers of rows.
-    rows : tuple of dict
-        The rows that were added or updated.
-    dry_run : bool
-        Whether nothing was written.
-    """
-
-    kind: str
-    added: int
-    updated: int
-    unchanged: int
-    rows: tuple[Row, ...]
-    dry_run: bool
+if TYPE_CHECKING:
+    from actuator_select.database.mapping import Mapping as ColumnMapping
 
 
 def open_catalogue(url: str | Path | None = None) -> "Catalogue":
@@ -126,8 +98,9 @@ class Catalogue(ReadableCatalogue):
         dry_run: bool = False,
         update: bool = False,
         progress: Progress | None = None,
+        on_rows: OnRows | None = None,
     ) -> ImportReport:
-        """Take in a CSV file, all of it or nothing.
+        """Take in a CSV file in the catalogue's own columns, all of it or nothing.
 
         Parameters
         ----------
@@ -141,6 +114,8 @@ class Catalogue(ReadableCatalogue):
             Change rows that exist; their columns that the file leaves out keep their values.
         progress : callable, optional
             Told (done, total) lines.
+        on_rows : callable, optional
+            Told the kind and the rows that are added or updated, portion by portion.
 
         Returns
         -------
@@ -154,21 +129,76 @@ class Catalogue(ReadableCatalogue):
         UnknownName
             If the kind is unknown.
         """
-        table = read_csv(Path(path))
-        found = find_kind_of(table, kind)
-        records, problems = read_records(found, table, progress)
-        with writing(self._engine, keep=not dry_run) as connection:
-            plan, more = plan_rows(connection, found, records, update=update)
-            refuse(f"nothing was imported from {table.name}", [*problems, *more])
-            write_plan(connection, found, plan, by=f"catalog import {table.name}")
-        return ImportReport(
-            kind=found.name,
-            added=len(plan.added),
-            updated=len(plan.updated),
-            unchanged=plan.unchanged,
-            rows=(*plan.added, *plan.updated),
-            dry_run=dry_run,
-        )
+        (report,) = self.import_file(path, kind, dry_run=dry_run, update=update, progress=progress, on_rows=on_rows)
+        return report
+
+    def import_file(  # noqa: PLR0913 - one keyword for each option of the command
+        self,
+        path: str | Path,
+        kind: str | None = None,
+        *,
+        mapping: "str | Path | ColumnMapping | None" = None,
+        source: str | None = None,
+        sheet: str | None = None,
+        dry_run: bool = False,
+        update: bool = False,
+        replace: bool = False,
+        progress: Progress | None = None,
+        on_rows: OnRows | None = None,
+    ) -> list[ImportReport]:
+        """Take in a file or a folder in one transaction, all of it or nothing, with flat memory.
+
+        Parameters
+        ----------
+        path : str or Path
+            CSV (UTF-8 with a header of column names), an XLSX workbook with a sheet for each kind, a JSON file of
+            lists of rows, or a folder of CSV files named after kinds, as `export_folder` writes it. An empty cell is
+            unknown, the word ``unlimited`` unlimited.
+        kind : str, optional
+            Kind of the rows, or which of several kinds to take; told by names and headers by default.
+        mapping : str, Path or Mapping, optional
+            What foreign columns mean: a TOML file, or the name of a mapping that comes with the program.
+        source : str, optional
+            Id of the source of every row.
+        sheet : str, optional
+            Sheet of a workbook.
+        dry_run : bool
+            Check everything and write nothing.
+        update : bool
+            Change rows that exist; their columns that the file leaves out keep their values.
+        replace : bool
+            Make the imported kinds hold exactly the rows of the file.
+        progress : callable, optional
+            Told (done, total) lines.
+        on_rows : callable, optional
+            Told the kind and the rows that are added or updated, portion by portion. What it is told of is undone if
+            a problem turns up later.
+
+        Returns
+        -------
+        list of ImportReport
+            One for each kind.
+
+        Raises
+        ------
+        InvalidRows
+            With everything that is wrong: place, value, what was expected, remedy.
+        UnknownName
+            If the kind, the sheet or the mapping is unknown.
+        """
+        found = mapping
+        if isinstance(found, str | Path):
+            from actuator_select.database.mapping import load_mapping
+
+            found = load_mapping(found)
+        path = Path(path)
+        terms = Terms(by=f"catalog import {path.name}", mapping=found, source=source, update=update, replace=replace)
+        with (
+            tables_of(path, kind, found, sheet) as tables,
+            writing(self._engine, keep=not dry_run) as connection,
+        ):
+            reports = take_in(connection, tables, terms, progress, on_rows)
+        return [dataclasses.replace(report, dry_run=dry_run) for report in reports]
 
     def edit(
         self,

@@ -1,7 +1,7 @@
 """Single values: from what somebody wrote to what the database holds, and back."""
 
 import re
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from math import inf, isinf, isnan
 from numbers import Real
 from typing import TypeAlias
@@ -14,6 +14,9 @@ LARGEST_FIGURE, SMALLEST_FIGURE = 1e12, 1e-12  # in any datasheet unit; beyond t
 
 Value: TypeAlias = float | int | str | None
 """None is unknown, an infinite float unlimited."""
+
+Reader: TypeAlias = Callable[[object], Value]
+"""What makes a value of what stands in a cell, or raises `Refused`."""
 
 _DECIMAL_COMMA = re.compile(r"[+-]?\d+,\d+([eE][+-]?\d+)?")
 _WHOLE = re.compile(r"[+-]?[0-9]{1,18}")
@@ -59,6 +62,11 @@ def ascii_controls(text: str) -> str:
     return "".join(char if char.isprintable() else ascii(char)[1:-1] for char in text)
 
 
+def is_number(text: str) -> bool:
+    """Whether a text is a number as this program reads numbers: digits, a point, an exponent."""
+    return _NUMBER.fullmatch(text) is not None
+
+
 def read_value(field: Field, value: object) -> Value:
     """Check one value, or read it from its text.
 
@@ -86,6 +94,53 @@ def read_value(field: Field, value: object) -> Value:
     number = _read_number(field, value) if isinstance(value, str) else _as_number(field, value)
     _check_range(field, number)
     return number
+
+
+def reader_of(field: Field) -> Reader:
+    """Reader of one field, for many cells.
+
+    Parameters
+    ----------
+    field : Field
+        What the values are for.
+
+    Returns
+    -------
+    callable
+        Does what `read_value` does with this field. What is plainly right, as nearly every cell is, it knows at once;
+        everything else it leaves to `read_value`.
+    """
+    if not field.is_text:
+        return _number_reader(field)
+    matches = re.compile(field.pattern).fullmatch if field.pattern else None
+    choices = frozenset(field.choices)
+
+    def read_text(value: object) -> Value:
+        if type(value) is str and value.isprintable() and not value.isspace():
+            if choices:
+                if value in choices:
+                    return value
+            elif value and (matches is None or matches(value)):
+                return value
+        return read_value(field, value)
+
+    return read_text
+
+
+def _number_reader(field: Field) -> Reader:
+    convert, matches = (int, _WHOLE.fullmatch) if field.type == "int" else (float, _NUMBER.fullmatch)
+    # Strictly between these every number may stand; the limits themselves are left to the careful way.
+    low = max(SMALLEST_FIGURE, field.minimum or 0.0, field.exclusive_minimum or 0.0)
+    high = LARGEST_FIGURE if field.maximum is None else field.maximum
+
+    def read_number(value: object) -> Value:
+        if type(value) is str and matches(value):
+            number = convert(value)
+            if low < number < high:
+                return number
+        return read_value(field, value)
+
+    return read_number
 
 
 def write_value(value: Value) -> str:

@@ -1,103 +1,94 @@
 """CSV files: bytes to numbered lines of cells, and cells to text that reads back exactly."""
 
+import codecs
 import csv
 import io
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
+from typing import BinaryIO
 
+from actuator_select.database.tables import Line, Table
 from actuator_select.errors import InvalidRows, Problem
 
 _LARGEST_CELL = 1_000_000  # characters; beyond it a quotation mark is missing rather than a note long
 _NEEDS_QUOTES = re.compile(r'[",\r\n]|^\s|\s$')
+_BLOCK = 1 << 20  # bytes that are looked at together
+
+SEMICOLONS = (
+    'replace the semicolons by commas, or import it with a mapping that states [csv] delimiter = ";" (--mapping)'
+)
+"""What to do with a file whose cells are separated by semicolons."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class CsvTable:
-    """A CSV file in memory.
+class CsvFormat:
+    """How a CSV file is written.
 
     Attributes
     ----------
-    name : str
-        Name of the file, for messages.
-    header : tuple of str
-        Its first line.
-    lines : tuple of (int, tuple of str)
-        Number of the line on which a record begins, and its cells; as many as `header`.
+    delimiter : str or None
+        What separates cells; None is a comma, and a semicolon is noticed and objected to.
+    encoding : str
+        As Python calls it; ``utf-8-sig`` is UTF-8 with or without a byte order mark.
+    header : bool
+        Whether the first line names the columns; where it does not, they are called 1, 2, 3 and so on.
     """
 
-    name: str
-    header: tuple[str, ...]
-    lines: tuple[tuple[int, tuple[str, ...]], ...]
+    delimiter: str | None = None
+    encoding: str = "utf-8-sig"
+    header: bool = True
 
 
-def read_csv(path: Path) -> CsvTable:
-    """Read a CSV file, UTF-8 with or without a byte order mark.
+def read_csv(path: Path, form: CsvFormat | None = None) -> Table:
+    """Read the header of a CSV file, and look over the rest.
 
     Parameters
     ----------
     path : Path
         The file.
+    form : CsvFormat, optional
+        How it is written; UTF-8 with commas and a header by default.
 
     Returns
     -------
-    CsvTable
-        Header and records; blank lines are left out.
+    Table
+        Header and lines; blank lines are left out.
 
     Raises
     ------
     InvalidRows
-        If it cannot be read, is not UTF-8, is empty, or lines have a wrong number of cells.
+        If it cannot be read, is in another encoding, or is empty.
     """
+    form = form or CsvFormat()
     try:
-        data = path.read_bytes()
+        opened = _opener(path)
+        length = _look_over(opened, path.name, form.encoding)
     except OSError as error:
         raise InvalidRows(f"cannot read {path}: {error.strerror or error}; check the name of the file") from error
-    return parse_csv(_decode(data, path.name), path.name)
-
-
-def parse_csv(text: str, name: str) -> CsvTable:
-    """Split CSV text into numbered lines of cells.
-
-    Parameters
-    ----------
-    text : str
-        Content of the file.
-    name : str
-        Name of the file, for messages.
-
-    Returns
-    -------
-    CsvTable
-        Header and records.
-
-    Raises
-    ------
-    InvalidRows
-        If it is empty or lines have a wrong number of cells.
-    """
-    lines = _split(text, name)
-    if not lines:
+    first = next(_records(opened, path.name, form, form.delimiter or ","), None)
+    if first is None:
         raise InvalidRows(
-            f"{name} is empty; its first line names the columns, `actuator-select catalog fields KIND` lists them"
+            f"{path.name} is empty; its first line names the columns, `actuator-select catalog fields KIND` lists them"
         )
-    (_, header), *records = lines
-    if len(header) == 1 and ";" in header[0]:
-        raise _one_problem(name, 1, header[0], "cells separated by commas", "replace the semicolons by commas")
-    problems = [
-        Problem(
-            place=f"{name}, line {number}",
-            value=f"{len(cells)} cells",
-            expected=f"{len(header)} cells, as many as the header",
-            remedy="is a comma missing or too many? A cell that holds a comma stands in double quotes",
-        )
-        for number, cells in records
-        if len(cells) != len(header)
-    ]
-    if problems:
-        raise InvalidRows(f"{name} cannot be read", problems)
-    return CsvTable(name=name, header=tuple(cell.strip() for cell in header), lines=tuple(records))
+    number, cells = first
+    delimiter, problems = form.delimiter or ",", []
+    if form.delimiter is None and len(cells) == 1 and ";" in cells[0]:
+        delimiter = ";"
+        problems.append(_problem(path.name, number, f"'{cells[0]}'", "cells separated by commas", SEMICOLONS))
+        number, cells = next(_records(opened, path.name, form, delimiter))
+    below = partial(_below, partial(_records, opened, path.name, form, delimiter), number if form.header else 0)
+    return Table(
+        name=path.name,
+        title=path.stem,
+        header=tuple(cell.strip() for cell in cells) if form.header else tuple(map(str, range(1, len(cells) + 1))),
+        read_lines=below,
+        length=length - (number if form.header else 0),
+        numbered_from=number if form.header else 0,
+        problems=tuple(problems),
+    )
 
 
 def write_csv(header: Sequence[str], records: Iterable[Sequence[str]]) -> str:
@@ -110,38 +101,73 @@ def _cell(text: str) -> str:
     return '"' + text.replace('"', '""') + '"' if _NEEDS_QUOTES.search(text) else text
 
 
-def _decode(data: bytes, name: str) -> str:
-    if data.startswith((b"\xff\xfe", b"\xfe\xff")):
-        raise InvalidRows(f"{name} is UTF-16, expected UTF-8; save it again as 'CSV UTF-8'")
+def _opener(path: Path) -> Callable[[], BinaryIO]:
+    """How to open the file again and again; what is no file, such as a pipe, can be read only once."""
+    if path.exists() and not path.is_file() and not path.is_dir():
+        return partial(io.BytesIO, path.read_bytes())
+    return lambda: path.open("rb")
+
+
+def _look_over(opened: Callable[[], BinaryIO], name: str, encoding: str) -> int:
+    """Number of lines of a file that is in the stated encoding throughout."""
+    decoder = codecs.getincrementaldecoder(encoding)()
+    lines = seen = 0
+    block = b""
+    with opened() as file:
+        while following := file.read(_BLOCK):
+            if not seen and encoding.startswith("utf-8") and following.startswith((b"\xff\xfe", b"\xfe\xff")):
+                raise InvalidRows(f"{name} is UTF-16, expected UTF-8; save it again as 'CSV UTF-8'")
+            _try(decoder, following, name, encoding, (seen, lines))
+            lines += following.count(b"\n")
+            seen += len(following)
+            block = following
+    _try(decoder, b"", name, encoding, (seen, lines))
+    return lines + (bool(block) and not block.endswith(b"\n"))
+
+
+def _try(decoder: codecs.IncrementalDecoder, block: bytes, name: str, encoding: str, before: tuple[int, int]) -> None:
+    """Decode the next block of a file, before which there are so many bytes and lines."""
+    pending = len(decoder.getstate()[0])
     try:
-        return data.decode("utf-8-sig")
+        decoder.decode(block, final=not block)
     except UnicodeDecodeError as error:
-        line = data.count(b"\n", 0, error.start) + 1
+        at = before[0] - pending + error.start
+        line = before[1] + error.object[: error.start].count(b"\n") + 1
+        utf_8 = encoding.startswith("utf-8")
+        remedy = (
+            "save it again as 'CSV UTF-8', or convert it with `iconv -f WINDOWS-1252 -t UTF-8`"
+            if utf_8
+            else "state its encoding in the mapping's [csv]"
+        )
         raise InvalidRows(
-            f"{name} is not UTF-8: byte {error.start} (line {line}) is 0x{data[error.start]:02X}; save it again as "
-            "'CSV UTF-8', or convert it with `iconv -f WINDOWS-1252 -t UTF-8`"
+            f"{name} is not {'UTF-8' if utf_8 else encoding}: byte {at} (line {line}) is "
+            f"0x{error.object[error.start]:02X}; {remedy}"
         ) from error
 
 
-def _split(text: str, name: str) -> list[tuple[int, tuple[str, ...]]]:
+def _records(
+    opened: Callable[[], BinaryIO], name: str, form: CsvFormat, delimiter: str
+) -> Iterator[tuple[int, list[str]]]:
+    """Records that are not blank, and the numbers of the lines on which they begin."""
     previous_limit = csv.field_size_limit(_LARGEST_CELL)
-    reader = csv.reader(io.StringIO(text, newline=""), strict=True)
-    lines = []
     begin = 1
     try:
-        for cells in reader:
-            if cells:
-                lines.append((begin, tuple(cells)))
-            begin = reader.line_num + 1
+        with io.TextIOWrapper(opened(), encoding=form.encoding, newline="") as text:
+            reader = csv.reader(text, delimiter=delimiter, strict=True)
+            for cells in reader:
+                if cells:
+                    yield begin, cells
+                begin = reader.line_num + 1
     except csv.Error as error:
-        raise _one_problem(
-            name, begin, str(error), "CSV", "does every cell that opens with a double quote close with one?"
-        ) from error
+        remedy = "does every cell that opens with a double quote close with one?"
+        raise InvalidRows(f"{name} cannot be read", [_problem(name, begin, str(error), "CSV", remedy)]) from error
     finally:
         csv.field_size_limit(previous_limit)
-    return lines
 
 
-def _one_problem(name: str, line: int, value: str, expected: str, remedy: str) -> InvalidRows:
-    problem = Problem(place=f"{name}, line {line}", value=value, expected=expected, remedy=remedy)
-    return InvalidRows(f"{name} cannot be read", [problem])
+def _below(records: Callable[[], Iterator[tuple[int, list[str]]]], header: int) -> Iterator[Line]:
+    return (record for record in records() if record[0] > header)
+
+
+def _problem(name: str, line: int, value: str, expected: str, remedy: str) -> Problem:
+    return Problem(place=f"{name}, line {line}", value=value, expected=expected, remedy=remedy)

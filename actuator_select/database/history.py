@@ -115,7 +115,8 @@ def _with_origin(
     if origin is not None:
         return [row | {"origin": origin} for row in rows]
     ledger = queries.fetch_ledger(connection)
-    shipped = [ledger.get((kind.name, str(row["id"]))) == row_digest(kind, row) for row in rows]
+    known = [ledger.get((kind.name, str(row["id"]))) for row in rows]
+    shipped = [one is not None and one == row_digest(kind, row) for one, row in zip(known, rows, strict=True)]
     return [row | {"origin": "shipped" if is_so else "user"} for row, is_so in zip(rows, shipped, strict=True)]
 
 

@@ -1,54 +1,24 @@
-"""From cells to checked rows: all or nothing, and every objection at once."""
+"""From records to rows of the database: all or nothing, and every objection at once."""
 
 import re
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
-from pathlib import PurePath
+from collections.abc import Sequence
+from dataclasses import dataclass
 
 import sqlalchemy as sa
 
 from actuator_select.database import history, queries
-from actuator_select.database.cells import Refused, Value, check_row, quoted, read_value, write_value
+from actuator_select.database.cells import check_row, quoted, write_value
 from actuator_select.database.content import row_digest
-from actuator_select.database.csv_table import CsvTable
 from actuator_select.database.fields import Field, Kind
-from actuator_select.database.kinds import KINDS, find_kind
-from actuator_select.errors import InvalidRows, Problem, UnknownName, did_you_mean
+from actuator_select.database.kinds import KINDS
+from actuator_select.database.records import Record, places_of, read_record, read_records
+from actuator_select.database.seen import Seen
+from actuator_select.database.suggestions import suggestion
+from actuator_select.errors import InvalidRows, Problem
 
-Progress = Callable[[int, int], None]
+__all__ = ["Plan", "Record", "in_order", "plan_rows", "read_record", "read_records", "refuse", "write_plan"]
 
-_LINES_PER_REPORT = 100  # of progress
-_LISTED_NAMES = 12  # more names than these are not listed in a message
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Record:
-    """What somebody wrote about one row.
-
-    Attributes
-    ----------
-    place : str
-        What stands before a column's name in messages: file and line.
-    header : str
-        File and line of the column names; empty for a row that is typed in.
-    spelt : mapping of str to str
-        The columns that were written, and how they are spelt.
-    given : mapping of str to value
-        Their values, without those that were refused.
-    """
-
-    place: str
-    header: str
-    spelt: Mapping[str, str]
-    given: Mapping[str, Value]
-
-    def at(self, column: str) -> str:
-        """Place of one column, for messages."""
-        return f"{self.place}{self.spelt.get(column, column)}"
-
-    def was_refused(self, column: str) -> bool:
-        """Whether something was written there that cannot be taken."""
-        return column in self.spelt and column not in self.given
+_COMPARED_NAMES = 50_000  # pairs; comparing them takes about a second
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -68,108 +38,14 @@ class Plan:
     unchanged: int
 
 
-def find_kind_of(table: CsvTable, kind: str | None) -> Kind:
-    """Kind of the rows in a CSV file: as stated, else by the file's name, else by its header.
-
-    Parameters
-    ----------
-    table : CsvTable
-        The file.
-    kind : str or None
-        As stated.
-
-    Returns
-    -------
-    Kind
-        The kind.
-
-    Raises
-    ------
-    UnknownName
-        If no such kind exists or none can be told.
-    """
-    if kind is not None:
-        return find_kind(kind)
-    stem = PurePath(table.name).stem.casefold()
-    named = [one for one in KINDS.values() if stem in {one.name, one.singular}]
-    fitting = named or [one for one in KINDS.values() if set(table.header) <= set(one.spellings)]
-    if len(fitting) != 1:
-        among = fitting or KINDS.values()
-        raise UnknownName(
-            f"cannot tell whether {table.name} holds {' or '.join(one.name for one in among)}; state it with --kind"
-        )
-    return fitting[0]
-
-
-def read_records(kind: Kind, table: CsvTable, progress: Progress | None = None) -> tuple[list[Record], list[Problem]]:
-    """Check the header and every cell of a CSV file.
-
-    Parameters
-    ----------
-    kind : Kind
-        Of its rows.
-    table : CsvTable
-        The file.
-    progress : callable, optional
-        Told (done, total) lines.
-
-    Returns
-    -------
-    list of Record, list of Problem
-        The rows, without refused cells, and what is wrong.
-    """
-    fields, problems = _read_header(kind, table)
-    spelt = {field.name: name for field, name in zip(fields, table.header, strict=True) if field}
-    records = []
-    for done, (number, cells) in enumerate(table.lines, start=1):
-        pairs = [(field, cell) for field, cell in zip(fields, cells, strict=True) if field]
-        record = Record(place=f"{table.name}, line {number}, ", header=f"{table.name}, line 1", spelt=spelt, given={})
-        record, refused = _fill(record, pairs)
-        records.append(record)
-        problems += refused
-        if progress is not None and (done % _LINES_PER_REPORT == 0 or done == len(table.lines)):
-            progress(done, len(table.lines))
-    return records, problems
-
-
-def read_record(kind: Kind, values: Mapping[str, object], prefix: str = "") -> tuple[Record, list[Problem]]:
-    """Check the values of one row that is typed in.
-
-    Parameters
-    ----------
-    kind : Kind
-        Of the row.
-    values : mapping of str to object
-        Numbers or texts by column name.
-    prefix : str, optional
-        What stands before the column names in messages.
-
-    Returns
-    -------
-    Record, list of Problem
-        The row, without refused values, and what is wrong.
-    """
-    spellings = kind.spellings
-    pairs, problems = [], []
-    for name, value in values.items():
-        if name in spellings:
-            pairs.append((spellings[name], value))
-        else:
-            problems.append(
-                Problem(
-                    place=f"{prefix}{name}",
-                    value=quoted(value),
-                    expected=f"a column of {kind.name}",
-                    remedy=_suggestion(name, list(spellings), f"catalog fields {kind.name}"),
-                )
-            )
-    spelt = {spellings[name].name: name for name in values if name in spellings}
-    record, refused = _fill(Record(place=prefix, header="", spelt=spelt, given={}), pairs)
-    return record, problems + refused
-
-
 def plan_rows(
-    connection: sa.Connection, kind: Kind, records: Sequence[Record], *, update: bool
+    connection: sa.Connection,
+    kind: Kind,
+    records: Sequence[Record],
+    *,
+    update: bool,
+    replace: bool = False,
+    seen: Seen | None = None,
 ) -> tuple[Plan, list[Problem]]:
     """Compare records with the database.
 
@@ -183,41 +59,52 @@ def plan_rows(
         What was written.
     update : bool
         Whether rows that exist may be changed; their columns that were left out keep their values.
+    replace : bool
+        Whether they may be changed, and columns that were left out become unknown.
+    seen : Seen, optional
+        What the same import has met before; without it `records` are all there are.
 
     Returns
     -------
     Plan, list of Problem
         What to write if there is no problem.
     """
-    problems = _repeated(records, "id")
-    existing = queries.fetch_own_rows(
-        connection, kind, [str(record.given["id"]) for record in records if _has_id(record)]
-    )
+    repeated = _repeated(kind, "id", records, seen)
+    problems = list(repeated.values())
+    existing = queries.fetch_own_rows(connection, kind, [row_id for _, row_id, _ in places_of(records, "id")])
+    blank: queries.Row = dict.fromkeys((field.name for field in kind.fields), None)
     added: list[queries.Row] = []
     updated: list[queries.Row] = []
-    for record in records:
-        before = existing.get(str(record.given.get("id")))
-        blank: queries.Row = {field.name: None for field in kind.fields}
-        row = (blank if before is None else before) | dict(record.given)
-        changed = before is None or row_digest(kind, row) != row_digest(kind, before)
-        if changed:
-            (added if before is None else updated).append(row)
-        if changed and before is not None and not update:
-            problems.append(_exists(kind, record, row, before))
+    for index, record in enumerate(records):
+        row_id = record.given.get("id")
+        before = existing.get(row_id) if isinstance(row_id, str) and index not in repeated else None
+        row = (blank if before is None or replace else before) | dict(record.given)
+        if before is None:
+            added.append(row)
+        elif row_digest(kind, row) != row_digest(kind, before):
+            updated.append(row)
+            if not (update or replace):
+                problems.append(_exists(kind, record, row, before))
         problems += _row_problems(kind, record, row)
-    problems += _check_references(connection, kind, records)
+    for field in kind.references:
+        problems += _unknown_references(connection, field, records, seen)
     for field in kind.fields:
         if field.unique:
-            problems += _repeated(records, field.name) + _taken(connection, kind, field.name, records)
-    return Plan(
-        added=tuple(added), updated=tuple(updated), unchanged=len(records) - len(added) - len(updated)
-    ), problems
+            twice = _repeated(kind, field.name, records, seen)
+            problems += [*twice.values(), *_taken(connection, kind, field.name, records, twice)]
+    unchanged = len(records) - len(added) - len(updated)
+    return Plan(added=tuple(added), updated=tuple(updated), unchanged=unchanged), problems
 
 
 def refuse(heading: str, problems: Sequence[Problem]) -> None:
     """Raise `InvalidRows` if there are problems, each told once and in the order of the lines."""
     if problems:
-        raise InvalidRows(heading, sorted(dict.fromkeys(problems), key=_line))
+        raise InvalidRows(heading, in_order(problems))
+
+
+def in_order(problems: Sequence[Problem]) -> list[Problem]:
+    """Problems of one table, each once and in the order of the lines."""
+    return sorted(dict.fromkeys(problems), key=_line)
 
 
 def write_plan(connection: sa.Connection, kind: Kind, plan: Plan, *, by: str) -> None:
@@ -226,24 +113,13 @@ def write_plan(connection: sa.Connection, kind: Kind, plan: Plan, *, by: str) ->
     history.change_rows(connection, kind, plan.updated, by=by)
 
 
-def _fill(record: Record, pairs: Sequence[tuple[Field, object]]) -> tuple[Record, list[Problem]]:
-    given: dict[str, Value] = {}
-    problems = []
-    for field, value in pairs:
-        try:
-            given[field.name] = read_value(field, value)
-        except Refused as refused:
-            problems.append(refused.at(record.at(field.name), value))
-    return replace(record, given=given), problems
-
-
 def _row_problems(kind: Kind, record: Record, row: queries.Row) -> list[Problem]:
     problems = []
     for column, refused in check_row(kind, row):
         group = next((names for names in kind.any_of if column in names), (column,))
         if any(record.was_refused(name) for name in group):
             continue
-        if record.header and kind.field(column).required and column not in record.spelt:
+        if record.header and kind.field(column).required and column not in record.written:
             # Told once, not for every line.
             value, remedy = f"there is no column {column!r}", "add the column"
             problems.append(Problem(place=record.header, value=value, expected=refused.expected, remedy=remedy))
@@ -253,54 +129,33 @@ def _row_problems(kind: Kind, record: Record, row: queries.Row) -> list[Problem]
 
 
 def _line(problem: Problem) -> int:
-    found = re.search(r", line (\d+)", problem.place)
+    found = re.search(r", (?:line |row |cell [A-Z]+)(\d+)", problem.place)
     return int(found[1]) if found else 0
 
 
-def _has_id(record: Record) -> bool:
-    return record.given.get("id") is not None
-
-
-def _read_header(kind: Kind, table: CsvTable) -> tuple[list[Field | None], list[Problem]]:
-    spellings = kind.spellings
-    fields: list[Field | None] = []
-    problems = []
-    place = f"{table.name}, line 1"
-    for name in table.header:
-        field = spellings.get(name)
-        if field is None:
-            expected = f"a column of {kind.name}"
-            remedy = _suggestion(name, list(spellings), f"catalog fields {kind.name}")
-            problems.append(Problem(place=place, value=quoted(name), expected=expected, remedy=remedy))
-        elif field in fields:
-            problems.append(
-                Problem(
-                    place=place, value=quoted(name), expected="each column once", remedy=f"it is {field.name} again"
-                )
+def _repeated(kind: Kind, column: str, records: Sequence[Record], seen: Seen | None) -> dict[int, Problem]:
+    """Objections to values that stood before, by the index of the record that repeats them."""
+    met = {} if seen is None else seen.places(kind, column, (value for _, value, _ in places_of(records, column)))
+    new: dict[str, str] = {}
+    problems = {}
+    for index, value, record in places_of(records, column):
+        if (first := met.get(value) or new.get(value)) is not None:
+            expected = f"another {column} than {first}"
+            problems[index] = Problem(
+                place=record.at(column), value=quoted(value), expected=expected, remedy="remove or rename one"
             )
-            field = None
-        fields.append(field)
-    return fields, problems
-
-
-def _repeated(records: Sequence[Record], column: str) -> list[Problem]:
-    first: dict[Value, str] = {}
-    problems = []
-    for record in records:
-        value = record.given.get(column)
-        if value is None:
-            continue
-        if value in first:
-            expected = f"another {column} than {first[value]}"
-            problems.append(
-                Problem(place=record.at(column), value=quoted(value), expected=expected, remedy="remove or rename one")
-            )
-        first.setdefault(value, record.place.removesuffix(", "))
+        else:
+            new[value] = record.place
+    if seen is not None:
+        seen.note(kind, column, new)
     return problems
 
 
-def _taken(connection: sa.Connection, kind: Kind, column: str, records: Sequence[Record]) -> list[Problem]:
-    holders = {value: row_id for row_id, value in queries.fetch_values(connection, kind, column).items()}
+def _taken(
+    connection: sa.Connection, kind: Kind, column: str, records: Sequence[Record], repeated: dict[int, Problem]
+) -> list[Problem]:
+    found = [one for one in places_of(records, column) if one[0] not in repeated]
+    holders = queries.fetch_holders(connection, kind, column, (value for _, value, _ in found))
     return [
         Problem(
             place=record.at(column),
@@ -308,9 +163,8 @@ def _taken(connection: sa.Connection, kind: Kind, column: str, records: Sequence
             expected=f"another {column} than {kind.singular} {holders[value]!r} of the catalogue",
             remedy="choose another",
         )
-        for record in records
-        if isinstance(value := record.given.get(column), str)
-        and holders.get(value) not in {None, record.given.get("id")}
+        for _, value, record in found
+        if holders.get(value) not in {None, record.given.get("id")}
     ]
 
 
@@ -327,31 +181,30 @@ def _exists(kind: Kind, record: Record, row: queries.Row, before: queries.Row) -
     )
 
 
-def _check_references(connection: sa.Connection, kind: Kind, records: Sequence[Record]) -> list[Problem]:
-    problems = []
-    for field in kind.references:
-        wanted = {value for record in records if isinstance(value := record.given.get(field.name), str)}
-        other = KINDS[field.references]
-        missing = wanted - set(queries.fetch_own_rows(connection, other, wanted))
-        if not missing:
-            continue
-        known = list(queries.fetch_values(connection, other, "id"))
-        remedies = {value: _remedy(value, other, known) for value in missing}
-        problems += [
-            Problem(place=record.at(field.name), value=quoted(value), expected=field.expected, remedy=remedies[value])
-            for record in records
-            if isinstance(value := record.given.get(field.name), str) and value in missing
-        ]
-    return problems
+def _unknown_references(
+    connection: sa.Connection, field: Field, records: Sequence[Record], seen: Seen | None
+) -> list[Problem]:
+    other = KINDS[field.references]
+    wanted = {value for _, value, _ in places_of(records, field.name)}
+    missing = wanted - set(queries.fetch_holders(connection, other, "id", wanted))
+    if seen is not None:
+        # Once anything is refused rows are no longer written, but they are known to come.
+        missing -= set(seen.places(other, "id", missing))
+    if not missing:
+        return []
+    remedies = _remedies(connection, sorted(missing), other)
+    return [
+        Problem(place=record.at(field.name), value=quoted(value), expected=field.expected, remedy=remedies[value])
+        for _, value, record in places_of(records, field.name)
+        if value in missing
+    ]
 
 
-def _remedy(value: str, other: Kind, known: Sequence[str]) -> str:
-    hint = _suggestion(value, known, f"catalog list {other.name}")
-    return f"{hint} (import {other.name}.csv first, or add the {other.singular})"
-
-
-def _suggestion(word: str, known: Sequence[str], command: str) -> str:
-    """Near names, or all where they are few, or the command that lists them."""
-    hint = did_you_mean(word, known)
-    too_many = len(known) > _LISTED_NAMES and hint.startswith("known are")
-    return f"`actuator-select {command}` lists what there is" if too_many else hint
+def _remedies(connection: sa.Connection, missing: Sequence[str], other: Kind) -> dict[str, str]:
+    """What to do for every missing id; near names only for a few, because comparing many with many takes minutes."""
+    command = f"catalog list {other.name}"
+    few = len(missing) * queries.count_rows(connection, other) <= _COMPARED_NAMES
+    known = list(queries.fetch_values(connection, other, "id")) if few else []
+    rest = f"(import {other.name}.csv first, or add the {other.singular})"
+    lists = f"`actuator-select {command}` lists what there is"
+    return {value: f"{suggestion(value, known, command) if few else lists} {rest}" for value in missing}

@@ -1,4 +1,4 @@
-"""Every SQL statement of the program."""
+"""Every SQL statement of the program but those of an import's temporary table (`seen`)."""
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -80,14 +80,9 @@ def fetch_own_rows(connection: sa.Connection, kind: Kind, ids: Iterable[str] | N
     """Rows without their parts' columns, by id: all, or those of `ids` that exist."""
     table = TABLES[kind.name]
     query = sa.select(*(table.c[field.name] for field in kind.columns)).order_by(table.c.id)
-    if ids is None:
-        batches = [query]
-    else:
-        wanted = sorted(set(ids))
-        starts = range(0, len(wanted), _IDS_PER_QUERY)
-        batches = [query.where(table.c.id.in_(wanted[start : start + _IDS_PER_QUERY])) for start in starts]
+    parts = [query] if ids is None else [query.where(table.c.id.in_(batch)) for batch in batches(ids)]
     names = [field.name for field in kind.columns]
-    found = (dict(zip(names, values, strict=True)) for batch in batches for values in connection.execute(batch))
+    found = (dict(zip(names, values, strict=True)) for part in parts for values in connection.execute(part))
     return {str(row["id"]): row for row in found}
 
 
@@ -116,6 +111,34 @@ def fetch_values(connection: sa.Connection, kind: Kind, column: str) -> dict[str
     table = TABLES[kind.name]
     query = sa.select(table.c.id, table.c[column]).order_by(table.c.id)
     return {str(row_id): value for row_id, value in connection.execute(query)}
+
+
+def fetch_holders(connection: sa.Connection, kind: Kind, column: str, values: Iterable[str]) -> dict[str, str]:
+    """Ids of the rows that hold those of `values` that some row holds."""
+    table = TABLES[kind.name]
+    query = sa.select(table.c[column], table.c.id)
+    found = (row for batch in batches(values) for row in connection.execute(query.where(table.c[column].in_(batch))))
+    return {str(value): str(row_id) for value, row_id in found}
+
+
+def fetch_referring(connection: sa.Connection, kind: Kind, ids: Iterable[str]) -> dict[str, list[str]]:
+    """By what rows are used, such as ``actuator 'mine'``, by id; rows that nothing uses are left out."""
+    target = TABLES[kind.name].c.id
+    found: dict[str, list[str]] = {}
+    for batch in batches(ids):
+        for other in KINDS.values():
+            table = TABLES[other.name]
+            for column in (column for column in table.columns if column.references(target)):
+                query = sa.select(column, table.c.id).where(column.in_(batch)).order_by(table.c.id)
+                for used, row_id in connection.execute(query):
+                    found.setdefault(str(used), []).append(f"{other.singular} {row_id!r}")
+    return found
+
+
+def batches(values: Iterable[str]) -> list[list[str]]:
+    """Different values, in portions that one statement takes."""
+    wanted = sorted(set(values))
+    return [wanted[start : start + _IDS_PER_QUERY] for start in range(0, len(wanted), _IDS_PER_QUERY)]
 
 
 def fetch_names(connection: sa.Connection, kind: Kind) -> dict[str, str]:

@@ -48,8 +48,7 @@ def read_shipped() -> ShippedRows:
     """Read and check the shipped rows."""
     rows: dict[str, dict[str, queries.Row]] = {}
     for kind, path in zip(KINDS.values(), shipped_files().values(), strict=True):
-        table = read_csv(path)
-        records, problems = read_records(kind, table) if table.lines else ([], [])
+        records, problems = read_records(kind, read_csv(path))
         complete = [{one.name: record.given.get(one.name) for one in kind.fields} for record in records]
         for record, row in zip(records, complete, strict=True):
             problems += [refused.at(record.at(column), row.get(column)) for column, refused in check_row(kind, row)]

@@ -28,9 +28,19 @@ def readme_commands() -> list[str]:
     return [command for command in quick + tabled if "reports/" not in command]
 
 
-def test_every_command_in_the_readme_runs_in_order(run: Run) -> None:
+def readme_files() -> dict[str, str]:
+    """Files that the README shows: blocks after a sentence that ends in ``file `NAME`:`` or begins with it."""
+    shown = r"a file `([\w.]+)`[^`]*:\n\n```\w+\n(.*?)```"
+    return dict(re.findall(shown, README, flags=re.DOTALL))
+
+
+def test_every_command_in_the_readme_runs_in_order(run: Run, tmp_path: Path) -> None:
     commands = readme_commands()
     assert len(commands) > 12
+    files = readme_files()
+    assert sorted(files) == ["acme.csv", "acme.toml"]
+    for name, text in files.items():
+        (tmp_path / name).write_text(text, encoding="utf-8")
     for command in commands:
         status, _, err = run(*shlex.split(command)[1:])
         assert status == 0, f"{command}\n{err}"

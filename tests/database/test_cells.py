@@ -1,5 +1,6 @@
 """Single values: what is understood, what is refused and how the refusal reads."""
 
+from collections.abc import Callable
 from math import inf, nan
 
 import numpy as np
@@ -7,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from actuator_select.database.cells import Refused, quoted, read_value, write_value
+from actuator_select.database.cells import Refused, quoted, read_value, reader_of, write_value
 from actuator_select.database.fields import Field
 from actuator_select.database.kinds import ACTUATORS, GEARBOXES, MOTORS, SOURCES, WINCHES
 
@@ -126,3 +127,31 @@ def test_no_text_in_place_of_a_number_is_a_fault(text: str) -> None:
 
 def test_a_repeated_value_cannot_garble_the_terminal() -> None:
     assert quoted("a\x1b[31m\n" + "x" * 100) == r"'a\x1b[31m\n" + "x" * 49 + "…'"
+
+
+@given(
+    st.sampled_from(
+        [POWER, PEAK, FRICTION, EFFICIENCY, STAGES, DATE, TEXT, MOTORS.field("motor_type"), MOTORS.field("id")]
+    ),
+    st.one_of(
+        st.text(),
+        st.none(),
+        st.booleans(),
+        st.integers(),
+        st.floats(),
+        st.floats().map(repr),
+        st.integers().map(str),
+        st.sampled_from(
+            ["", " ", "1", "100", "1e12", "1e-12", "unlimited", "bldc", "BLDC", "2018-07", " a", "a\n", "12\n"]
+        ),
+    ),
+)
+def test_the_fast_reader_does_what_the_careful_one_does(field: Field, value: object) -> None:
+    def outcome(read: Callable[[object], object]) -> object:
+        try:
+            found = read(value)
+        except Refused as refused:
+            return refused.expected, refused.remedy
+        return type(found), found
+
+    assert outcome(reader_of(field)) == outcome(lambda one: read_value(field, one))

@@ -177,7 +177,7 @@ def test_an_equal_row_is_passed_over(catalogue: Catalogue, write_csv: Write) -> 
     path = write_csv("motors.csv", GOOD)
     catalogue.import_csv(path)
     report = catalogue.import_csv(path)
-    assert (report.added, report.updated, report.unchanged, report.rows) == (0, 0, 2, ())
+    assert (report.added, report.updated, report.unchanged) == (0, 0, 2)
 
 
 def test_another_row_of_the_same_id_needs_update(catalogue: Catalogue, write_csv: Write) -> None:
@@ -245,11 +245,12 @@ def test_no_file_is_a_fault_of_the_program(catalogue: Catalogue, tmp_path: Path,
     path.write_bytes(b"id,notes,rated_power_w,source_id\n" + data)
     before = catalogue.fingerprint()
     try:
-        report = catalogue.import_csv(path, dry_run=True)
+        written: list[object] = []
+        report = catalogue.import_csv(path, dry_run=True, on_rows=lambda _, rows: written.extend(rows))
     except ActuatorSelectError:
         pass
     else:
-        assert report.added == len(report.rows)
+        assert report.added == len(written)
     assert catalogue.fingerprint() == before
 
 

@@ -1,0 +1,364 @@
+"""Taking in whole files: in one transaction, portion by portion, so that memory stays flat; all of it or nothing."""
+
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
+from itertools import islice
+from pathlib import Path
+from typing import TYPE_CHECKING, TypeAlias
+
+import sqlalchemy as sa
+
+from actuator_select.database import history, queries
+from actuator_select.database.csv_table import SEMICOLONS, read_csv
+from actuator_select.database.fields import Kind
+from actuator_select.database.heading import Heading, read_heading
+from actuator_select.database.ingest import in_order, plan_rows, write_plan
+from actuator_select.database.kinds import KINDS, find_kind
+from actuator_select.database.queries import Row
+from actuator_select.database.records import Record, iter_records
+from actuator_select.database.seen import Seen, remembering
+from actuator_select.database.tables import Table, kind_named, kind_of, one_to_many
+from actuator_select.errors import InvalidRows, Problem, UnknownName, did_you_mean
+
+if TYPE_CHECKING:
+    from actuator_select.database.mapping import Mapping
+
+Progress: TypeAlias = Callable[[int, int], None]
+"""Told (done, total) lines."""
+
+OnRows: TypeAlias = Callable[[str, Sequence[Row]], None]
+"""Told the kind of rows that were added or updated, and the rows, portion by portion."""
+
+_PORTION = 1000  # rows that are held in memory
+_LINES_PER_REPORT = 100  # of progress
+_MOST_PROBLEMS = 2000  # nobody reads more
+_WANTED = "id of replacement"  # under which ids are remembered that stay in a catalogue
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ImportReport:
+    """What an import did to one kind, or would do.
+
+    Attributes
+    ----------
+    kind : str
+        Kind of the rows.
+    added, updated, unchanged, removed : int
+        Numbers of rows.
+    dry_run : bool
+        Whether nothing was written.
+    """
+
+    kind: str
+    added: int = 0
+    updated: int = 0
+    unchanged: int = 0
+    removed: int = 0
+    dry_run: bool = False
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Terms:
+    """How a file is to be taken in.
+
+    Attributes
+    ----------
+    by : str
+        By what, for the history.
+    mapping : Mapping or None
+        What the foreign columns mean.
+    source : str or None
+        Source of every row.
+    update : bool
+        Whether rows that exist may be changed.
+    replace : bool
+        Whether the kinds are to hold exactly the rows of the file.
+    """
+
+    by: str
+    mapping: "Mapping | None" = None
+    source: str | None = None
+    update: bool = False
+    replace: bool = False
+
+
+@contextmanager
+def tables_of(
+    path: Path, kind: str | None, mapping: "Mapping | None" = None, sheet: str | None = None
+) -> Iterator[list[tuple[Kind, Table]]]:
+    """Open a file or a folder while its tables are read.
+
+    Parameters
+    ----------
+    path : Path
+        A CSV, XLSX or JSON file, or a folder of CSV files that are named after kinds.
+    kind : str or None
+        Kind of the rows, or which of several to take; told by names and headers by default.
+    mapping : Mapping, optional
+        What tells the kind and how CSV is written.
+    sheet : str, optional
+        Of a workbook.
+
+    Yields
+    ------
+    list of (Kind, Table)
+        In an order in which references point backwards.
+
+    Raises
+    ------
+    InvalidRows
+        If it cannot be read.
+    UnknownName
+        If a kind or a sheet does not exist or cannot be told.
+    """
+    wanted = None if kind is None else find_kind(kind).name
+    form = None
+    if mapping is not None:
+        form, mapped = mapping.csv_format, find_kind(mapping.kind).name
+        if wanted not in {None, mapped}:
+            raise UnknownName(f"the mapping {mapping.name} is for {mapped}, not {wanted}; drop --kind, or take another")
+        wanted = mapped
+    suffix = path.suffix.casefold()
+    if sheet is not None and suffix != ".xlsx":
+        raise UnknownName(f"{path.name} is no XLSX workbook and has no sheet {sheet!r}; drop --sheet")
+    if suffix == ".xlsx":
+        from actuator_select.database.xlsx_table import xlsx_tables
+
+        with xlsx_tables(path) as tables:
+            chosen = tables if sheet is None else [_sheet(tables, sheet, path)]
+            yield _with_kinds(chosen, path, wanted, is_stated=sheet is not None)
+    elif suffix == ".json":
+        from actuator_select.database.json_table import json_tables
+
+        yield _with_kinds(json_tables(path), path, wanted)
+    elif path.is_dir():
+        named = {one: path / f"{one}.csv" for one in KINDS}
+        files = [file for one, file in named.items() if file.is_file() and wanted in {None, one}]
+        yield _with_kinds([read_csv(file, form) for file in files], path, wanted)
+    else:
+        table = read_csv(path, form)
+        if mapping is not None and mapping.layout == "one-to-many":
+            table = one_to_many(table)
+        yield [(find_kind(wanted or kind_of(table)), table)]
+
+
+def take_in(
+    connection: sa.Connection,
+    tables: Sequence[tuple[Kind, Table]],
+    terms: Terms,
+    progress: Progress | None = None,
+    on_rows: OnRows | None = None,
+) -> list[ImportReport]:
+    """Take tables in, in the caller's transaction, which is to be undone if this raises.
+
+    Parameters
+    ----------
+    connection : sqlalchemy.Connection
+        In a transaction that writes.
+    tables : sequence of (Kind, Table)
+        In an order in which references point backwards.
+    terms : Terms
+        How.
+    progress, on_rows : callable, optional
+        Told what has been done.
+
+    Returns
+    -------
+    list of ImportReport
+        One for each kind.
+
+    Raises
+    ------
+    InvalidRows
+        With everything that is wrong, up to a few thousand problems.
+    """
+    with remembering(connection) as seen:
+        intake = _Intake(connection, seen, terms, progress, on_rows, sum(table.length for _, table in tables))
+        reports = [intake.take(kind, table) for kind, table in tables]
+        if terms.replace and intake.has_no_problem:
+            # Otherwise rows that were not written would seem to be missing, and rows that stay to be in use.
+            gone = {kind.name: intake.remove_others(kind) for kind, _ in reversed(tables)}
+            reports = [replace(one, removed=one.removed + gone[one.kind]) for one in reports]
+        intake.refuse(" and ".join(table.name for _, table in tables))
+        return reports
+
+
+class _Intake:
+    """One import under way."""
+
+    def __init__(
+        self,
+        connection: sa.Connection,
+        seen: Seen,
+        terms: Terms,
+        progress: Progress | None,
+        on_rows: OnRows | None,
+        total: int,
+    ) -> None:
+        self._connection = connection
+        self._seen = seen
+        self._terms = terms
+        self._progress = progress
+        self._on_rows = on_rows
+        self._total = total
+        self._done = 0
+        self._problems: dict[Problem, None] = {}
+
+    def take(self, kind: Kind, table: Table) -> ImportReport:
+        """Take one table in; from the first problem on it is only checked."""
+        heading, problems = read_heading(kind, table, self._terms.mapping, self._terms.source)
+        self._object(problems)
+        removed = 0
+        if self._terms.replace and any(field.unique for field in kind.fields):
+            # What goes has to go first: its names may be given to others.
+            self._note_ids(heading)
+            removed = self._remove(kind, self._seen.other_ids(kind, _WANTED))
+        report = ImportReport(kind=kind.name, removed=removed)
+        lines = self._counted(heading)
+        while self._can_go_on and (portion := list(islice(lines, _PORTION))):
+            report = self._take_portion(heading, portion, report)
+        self._done += table.length
+        return report
+
+    def remove_others(self, kind: Kind) -> int:
+        """Remove the rows of a kind that were not in the file; how many there were."""
+        return self._remove(kind, self._seen.other_ids(kind, "id"))
+
+    def refuse(self, name: str) -> None:
+        """Raise `InvalidRows` if anything was objected to."""
+        problems = list(self._problems)
+        if not problems:
+            return
+        heading = f"nothing was imported from {name}"
+        if not self._can_go_on:
+            heading += f"; there are more than {_MOST_PROBLEMS} problems, the first of which are"
+        raise InvalidRows(heading, _with_decimal_comma(problems[:_MOST_PROBLEMS]))
+
+    @property
+    def has_no_problem(self) -> bool:
+        """Whether nothing has been objected to yet."""
+        return not self._problems
+
+    @property
+    def _can_go_on(self) -> bool:
+        return len(self._problems) <= _MOST_PROBLEMS
+
+    def _take_portion(
+        self, heading: Heading, portion: Sequence[tuple[Record | None, list[Problem]]], report: ImportReport
+    ) -> ImportReport:
+        records = [record for record, _ in portion if record is not None]
+        plan, more = plan_rows(
+            self._connection,
+            heading.kind,
+            records,
+            update=self._terms.update,
+            replace=self._terms.replace,
+            seen=self._seen,
+        )
+        self._object(in_order([*(problem for _, problems in portion for problem in problems), *more]))
+        if not self._problems:
+            write_plan(self._connection, heading.kind, plan, by=self._terms.by)
+            if self._on_rows is not None:
+                self._on_rows(heading.kind.name, (*plan.added, *plan.updated))
+        return replace(
+            report,
+            added=report.added + len(plan.added),
+            updated=report.updated + len(plan.updated),
+            unchanged=report.unchanged + plan.unchanged,
+        )
+
+    def _counted(self, heading: Heading) -> Iterator[tuple[Record | None, list[Problem]]]:
+        """Records and problems of a table, with progress; a file that breaks off ends with a problem."""
+        told = -1
+        try:
+            for count, (number, record, problems) in enumerate(iter_records(heading), start=1):
+                yield record, problems
+                if count % _LINES_PER_REPORT == 0:
+                    told = self._tell(number - heading.table.numbered_from)
+        except InvalidRows as error:
+            if not error.problems:
+                raise
+            yield None, list(error.problems)
+        if told != self._done + heading.table.length:
+            self._tell(heading.table.length)
+
+    def _tell(self, lines: int) -> int:
+        """Tell how many lines have been read, of this table and those before."""
+        done = min(self._done + lines, self._total)
+        if self._progress is not None:
+            self._progress(done, self._total)
+        return done
+
+    def _note_ids(self, heading: Heading) -> None:
+        records = (record for _, record, _ in iter_records(heading) if record is not None)
+        while portion := list(islice(records, _PORTION)):
+            ids = {str(one.given["id"]): one.place for one in portion if one.given.get("id") is not None}
+            known = self._seen.places(heading.kind, _WANTED, ids)
+            self._seen.note(heading.kind, _WANTED, {one: place for one, place in ids.items() if one not in known})
+
+    def _remove(self, kind: Kind, ids: Sequence[str]) -> int:
+        users = queries.fetch_referring(self._connection, kind, ids)
+        self._object(
+            Problem(
+                place=f"{kind.singular} {row_id!r} of the catalogue",
+                value="not in the file",
+                expected=f"a row for it, because {_some(by)} {'uses' if len(by) == 1 else 'use'} it",
+                remedy="replace or remove these first, or import with --update instead of --replace",
+            )
+            for row_id, by in users.items()
+        )
+        for batch in queries.batches(row_id for row_id in ids if row_id not in users):
+            history.remove_rows(self._connection, kind, batch, by=self._terms.by)
+        return len(ids)
+
+    def _object(self, problems: "Sequence[Problem] | Iterator[Problem]") -> None:
+        self._problems.update(dict.fromkeys(problems))
+
+
+_NAMED_USERS = 5
+
+
+def _some(names: Sequence[str]) -> str:
+    others = len(names) - _NAMED_USERS
+    return ", ".join(names[:_NAMED_USERS]) + (f" and {others} more" if others > 0 else "")
+
+
+def _with_decimal_comma(problems: list[Problem]) -> list[Problem]:
+    """Where semicolons and decimal commas are all that is wrong, say how to import the file as it is."""
+    semicolons = [one for one in problems if one.remedy == SEMICOLONS]
+    others = [one for one in problems if one.remedy != SEMICOLONS]
+    if not semicolons or not others or not all("a decimal comma was given" in one.remedy for one in others):
+        return problems
+    remedy = (
+        'the file can be imported as it is with a mapping (--mapping FILE.toml) of three lines: kind = "motors", then '
+        '[csv], then delimiter = ";" and decimal = ","'
+    )
+    return [replace(one, remedy=remedy) if one.remedy == SEMICOLONS else one for one in problems]
+
+
+def _with_kinds(
+    tables: Sequence[Table], path: Path, wanted: str | None, *, is_stated: bool = False
+) -> list[tuple[Kind, Table]]:
+    """Tables and their kinds, in an order in which references point backwards; others are passed over."""
+    if wanted is not None and len(tables) == 1 and (is_stated or kind_named(tables[0].title) in {None, wanted}):
+        return [(KINDS[wanted], tables[0])]
+    named = [(KINDS[name], table) for table in tables if (name := kind_named(table.title))]
+    if wanted is None and not named and len(tables) == 1:
+        return [(KINDS[kind_of(tables[0])], tables[0])]
+    found = [(kind, table) for kind, table in named if wanted in {None, kind.name}]
+    if not found:
+        has = f"; it has {', '.join(table.title for table in tables)}" if tables else " or is empty"
+        asked = wanted or "a kind of row, such as motors"
+        raise InvalidRows(f"{path} has no part named {asked}{has}; name one so, or state --sheet and --kind")
+    names = [kind.name for kind, _ in found]
+    if twice := next((name for name in names if names.count(name) > 1), None):
+        raise InvalidRows(f"{path} has several parts for {twice}; state one with --sheet")
+    return sorted(found, key=lambda one: list(KINDS).index(one[0].name))
+
+
+def _sheet(tables: Sequence[Table], sheet: str, path: Path) -> Table:
+    for table in tables:
+        if table.title == sheet:
+            return table
+    raise UnknownName(f"{path.name} has no sheet {sheet!r}; {did_you_mean(sheet, [one.title for one in tables])}")

@@ -1,0 +1,125 @@
+"""JSON catalogues as tables: a list of rows for each kind, as ``catalog export`` writes them."""
+
+import json
+from collections.abc import Iterator, Sequence
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+from actuator_select.database.cells import Reader, Refused, Value, quoted
+from actuator_select.database.fields import Field
+from actuator_select.database.kinds import KINDS
+from actuator_select.database.opc import opc_name
+from actuator_select.database.tables import ABSENT, Line, Table, kind_named
+from actuator_select.errors import InvalidRows, did_you_mean
+
+FORMAT, FORMAT_VERSION = "actuator-select catalogue", 1
+_NOT_LISTS = {"format", "format_version"}
+
+
+def json_tables(path: Path) -> list[Table]:
+    """Read a JSON file, which is held in memory whole, unlike the other formats.
+
+    Parameters
+    ----------
+    path : Path
+        ``{"format": "actuator-select catalogue", "format_version": 1, "motors": [{…}], …}``, or a list of rows.
+
+    Returns
+    -------
+    list of Table
+        One for each list; names of OPC 40400-1 become the catalogue's.
+
+    Raises
+    ------
+    InvalidRows
+        If it cannot be read, or is something else.
+    """
+    content = _read(path)
+    if isinstance(content, list):
+        content = {path.stem: content}
+    if not isinstance(content, dict):
+        raise InvalidRows(f'{path.name} is no catalogue; expected {{"motors": [{{…}}], …}} or a list of rows')
+    if content.get("format", FORMAT) != FORMAT:
+        raise InvalidRows(f"{path.name} states the format {content['format']!r}, expected {FORMAT!r}")
+    if content.get("format_version", FORMAT_VERSION) != FORMAT_VERSION:
+        version = content["format_version"]
+        raise InvalidRows(f"{path.name} states format_version {version!r}, expected {FORMAT_VERSION}; a newer "
+                          "actuator-select may read it")  # fmt: skip
+    lists = {key: rows for key, rows in content.items() if key not in _NOT_LISTS}
+    for key, rows in lists.items():
+        if len(lists) > 1 and kind_named(key) is None:
+            raise InvalidRows(f"{path.name}: {key!r} is no kind of row; {did_you_mean(key, list(KINDS))}")
+        if not isinstance(rows, list) or not all(isinstance(row, dict) for row in rows):
+            raise InvalidRows(f'{path.name}: {key!r} is no list of rows; expected [{{"id": …}}, …]')
+    return [_table(path.name, key, rows) for key, rows in lists.items()]
+
+
+def _read(path: Path) -> Any:  # noqa: ANN401 - any JSON
+    try:
+        return json.loads(path.read_bytes(), object_pairs_hook=_without_repetition, parse_constant=_refuse_constant)
+    except OSError as error:
+        raise InvalidRows(f"cannot read {path}: {error.strerror or error}; check the name of the file") from error
+    except RecursionError as error:
+        raise InvalidRows(f"{path.name} is nested too deeply for a catalogue") from error
+    except ValueError as error:  # also of bytes that are no UTF-8
+        raise InvalidRows(f"{path.name} is no JSON: {error}") from error
+
+
+def _without_repetition(pairs: list[tuple[str, object]]) -> dict[str, object]:
+    found = dict(pairs)
+    if len(found) < len(pairs):
+        names = [name for name, _ in pairs]
+        raise ValueError(f"{next(name for name in names if names.count(name) > 1)!r} stands twice in one object")
+    return found
+
+
+def _refuse_constant(word: str) -> None:
+    raise ValueError(f'{word} is no figure; write null if it is unknown, "unlimited" if there is no limit')
+
+
+def _table(name: str, key: str, rows: Sequence[dict[str, object]]) -> Table:
+    kind = KINDS.get(kind_named(key) or "")
+    own = {} if kind is None else {opc_name(kind, field.name): field.name for field in kind.fields}
+    keys = list(dict.fromkeys(one for row in rows for one in row))
+    return Table(
+        name=f"{name}, {key}",
+        title=key,
+        header=tuple(own.get(one, one) for one in keys),
+        read_lines=partial(_lines, rows, keys),
+        length=len(rows),
+        numbered_from=0,
+        unit_of_lines="row",
+        adapt=_adapt,
+    )
+
+
+def _lines(rows: Sequence[dict[str, object]], keys: Sequence[str]) -> Iterator[Line]:
+    for number, row in enumerate(rows, start=1):
+        yield number, [row.get(one, ABSENT) for one in keys]
+
+
+def _adapt(field: Field, read: Reader) -> Reader:
+    """Read a figure also with its unit: ``{"Value": 5060, "EngineeringUnits": "rpm"}``."""
+
+    def read_cell(cell: object) -> Value:
+        if not isinstance(cell, dict):
+            return read(cell)
+        if field.is_text or set(cell) != {"Value", "EngineeringUnits"}:
+            raise Refused(field.expected, 'write it plainly, or as {"Value": 5060, "EngineeringUnits": "rpm"}')
+        value, unit = cell["Value"], cell["EngineeringUnits"]
+        if unit == field.unit or isinstance(value, bool) or not isinstance(value, int | float):
+            return read(value)
+        return _converted(field, value, unit, read)
+
+    return read_cell
+
+
+def _converted(field: Field, value: float, unit: object, read: Reader) -> Value:
+    from actuator_select.database.unit_conversion import UnitRefused, conversion
+
+    try:
+        rule = conversion(str(unit), field)
+    except UnitRefused as refused:
+        raise Refused(field.expected, f"{quoted(unit)} {refused}") from refused
+    return read(value) if rule.changes_nothing else read(rule.apply(repr(value)))

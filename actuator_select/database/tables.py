@@ -1,0 +1,116 @@
+"""What every format is read as: a table with a name, a header and numbered lines of cells that come one by one."""
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field, replace
+from typing import TypeAlias
+
+from actuator_select.database.cells import Reader
+from actuator_select.database.fields import Field
+from actuator_select.database.kinds import KINDS
+from actuator_select.errors import Problem, UnknownName
+
+Line: TypeAlias = tuple[int, Sequence[object]]
+"""Number of a line, and its cells."""
+
+ABSENT = object()
+"""Stands in place of a cell where a line says nothing of a column, which is not the same as an empty cell."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Table:
+    """Rows as somebody wrote them.
+
+    Attributes
+    ----------
+    name : str
+        Of the file, with its sheet or list, for messages: ``motors.csv``.
+    title : str
+        What may tell the kind of its rows: ``motors``.
+    header : tuple of str
+        Names of the columns.
+    read_lines : callable
+        Begins anew to read the lines below the header, one by one. It raises `InvalidRows` where it cannot go on.
+    length : int
+        Number of lines, about, for progress.
+    numbered_from : int
+        Number of the line that holds the header; lines below have greater ones.
+    unit_of_lines : str
+        What a line is called: ``line`` or ``row``.
+    cell_name : callable or None
+        Says what a cell is called in the file, from its line and the index of its column: ``cell B7``.
+    adapt : callable or None
+        Makes a reader of texts and numbers read what stands in the format's cells besides, such as dates.
+    problems : tuple of Problem
+        What is wrong with the file as a whole although its lines can be read.
+    """
+
+    name: str
+    title: str
+    header: tuple[str, ...]
+    read_lines: Callable[[], Iterator[Line]]
+    length: int
+    numbered_from: int = 1
+    unit_of_lines: str = "line"
+    cell_name: Callable[[int, int], str] | None = None
+    adapt: Callable[[Field, Reader], Reader] | None = None
+    problems: tuple[Problem, ...] = field(default=())
+
+    @property
+    def header_place(self) -> str:
+        """Place of the names of the columns, for messages."""
+        return self.line_place(self.numbered_from) if self.numbered_from else self.name
+
+    def line_place(self, number: int) -> str:
+        """Place of a line, for messages."""
+        return f"{self.name}, {self.unit_of_lines} {number}"
+
+    def cell_place(self, number: int, index: int) -> str:
+        """Place of a cell, for messages."""
+        place = self.line_place(number) if self.cell_name is None else f"{self.name}, {self.cell_name(number, index)}"
+        name = self.header[index]
+        return f"{place}, column {name}" if name.isdecimal() else f"{place}, {name}"
+
+
+def kind_named(title: str) -> str | None:
+    """Kind that a file, a sheet or a list is named after; None if after none."""
+    title = title.strip().casefold()
+    return next((kind.name for kind in KINDS.values() if title in {kind.name, kind.singular}), None)
+
+
+def kind_of(table: Table) -> str:
+    """Kind of the rows of a table, told by its name, else by its header.
+
+    Raises
+    ------
+    UnknownName
+        If none can be told.
+    """
+    if named := kind_named(table.title):
+        return named
+    fitting = [one.name for one in KINDS.values() if set(table.header) <= set(one.spellings)]
+    if len(fitting) != 1:
+        raise UnknownName(
+            f"cannot tell whether {table.name} holds {' or '.join(fitting or KINDS)}; state it with --kind"
+        )
+    return fitting[0]
+
+
+def one_to_many(table: Table) -> Table:
+    """Turn lines of a key and any number of others into pairs.
+
+    Parameters
+    ----------
+    table : Table
+        Its lines may differ in length; empty cells are passed over.
+
+    Returns
+    -------
+    Table
+        With the columns ``1`` and ``2``: the key, and one of the others.
+    """
+
+    def read_lines() -> Iterator[Line]:
+        for number, (key, *others) in table.read_lines():
+            yield from ((number, (key, other)) for other in others if other not in {None, ""})
+
+    return replace(table, header=("1", "2"), read_lines=read_lines)

@@ -1,0 +1,212 @@
+"""Foreign units to the units of the catalogue's columns, by pint, as people spell them.
+
+Numbers are computed as decimals and rounded to 15 significant digits, so that 1.2 mNm is 0.0012 N m and the same cell
+gives the same figure everywhere. A figure in the column's own unit is not touched at all.
+"""
+
+import re
+from dataclasses import dataclass
+from decimal import Context, Decimal
+from functools import lru_cache
+from math import inf, isinf
+from typing import TYPE_CHECKING, Any
+
+from actuator_select.database.fields import Field
+
+if TYPE_CHECKING:
+    import pint
+
+_PRECISE = Context(prec=40)
+_ROUNDED = Context(prec=15)  # significant digits; every decimal of 15 digits survives a float
+_LEAST, _GREATEST = Decimal("1e-30"), Decimal("1e30")  # factors inside a unit, such as the 1000 of V/(1000 rpm)
+_DEFINITIONS = (
+    "Nm = newton * meter",
+    "oz_in = force_ounce * inch",
+    "lb_in = force_pound * inch",
+    "lb_ft = force_pound * foot",
+    "Nms = newton * meter * second",
+    "gcm = gram * centimeter",
+    "kgcm = kilogram * centimeter",
+)
+_SPELLINGS = (
+    # Powers first, because "oz in" is a torque and "oz in²" a moment of inertia.
+    (r"²", "**2"),
+    (r"³", "**3"),
+    (r"⁻¹", "**-1"),
+    (r"\^", "**"),
+    (r"[·⋅∙×•]", "*"),
+    (r"µ|μ", "µ"),
+    (r"Ω|Ω|\bOhms?\b", "ohm"),
+    # What is said of revolutions: 1/min alone is no angular speed to pint.
+    (r"\b(?:1/min|min(?:\*\*)?-1|r/min|revs?/min|U/min|RPM)(?!\w)", "rpm"),
+    (r"\b(?:1000|1,000|1e3)\s*\*?\s*rpm\b", "krpm"),
+    (r"\brps\b", "(revolution/second)"),
+    (r"(?:°|\bdeg)\s?([CF])(?=\s*/)", r"delta_deg\1"),
+    (r"°\s?([CF])\b", r"deg\1"),
+    (r"°", "deg"),
+    (r"\b(?:ozf?)[-\s.*]?in\b(?!\*\*|\d)", "oz_in"),
+    (r"\b(?:lbf?[-\s.*]?in|in[-\s.*]?lbf?)\b(?!\*\*|\d)", "lb_in"),
+    (r"\b(?:lbf?[-\s.*]?ft|ft[-\s.*]?lbf?)\b(?!\*\*|\d)", "lb_ft"),
+    (r"\bozf\b", "force_ounce"),
+    (r"\bN[-\s.*]?cm\b", "(newton*centimeter)"),
+    (r"\bN[-\s.*]?mm\b", "(newton*millimeter)"),
+    (r"([A-Za-zµ])([23])\b", r"\1**\2"),
+    (r"([A-Za-zµ)])-([123])\b", r"\1**-\2"),
+    (r"(?<=[A-Za-z0-9)])[-.](?=[A-Za-z(])", "*"),
+    (r"\s*(\*\*|\*|/|\(|\))\s*", r"\1"),
+    (r"\s+", "*"),
+)
+_SEPARATE_POWERS = (("kgcm**2", "kilogram*centimeter**2"), ("gcm**2", "gram*centimeter**2"))
+_ANGLE = re.compile(r"rpm|rad|rev|deg(?![CF])|turn|arc|grad")
+_WITH_ANGLE = {"rpm", "rpm/V", "arcmin"}  # units of columns that say nothing without an angle
+_PURE = {"", "%"}
+
+
+class UnitRefused(ValueError):
+    """A unit that is not known or does not fit the column; its words say which and what to do."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Conversion:
+    """From a foreign unit to a column's: y = factor·x + offset, or y = 1/(factor·x).
+
+    Attributes
+    ----------
+    factor, offset : Decimal
+        As above.
+    reciprocal : bool
+        Whether the foreign figure is the other way round, such as V/krpm for rpm/V.
+    """
+
+    factor: Decimal
+    offset: Decimal = Decimal(0)
+    reciprocal: bool = False
+
+    @property
+    def changes_nothing(self) -> bool:
+        """Whether the foreign unit is the column's own."""
+        return self.factor == 1 and self.offset == 0 and not self.reciprocal
+
+    def apply(self, number: str) -> float:
+        """Convert a number as written; what is beyond all floats becomes infinite, as does one over zero."""
+        if isinf(float(number)) or (self.reciprocal and float(number) == 0.0):
+            return inf
+        scaled = _PRECISE.multiply(self.factor, Decimal(number))
+        result = _PRECISE.divide(Decimal(1), scaled) if self.reciprocal else _PRECISE.add(scaled, self.offset)
+        return float(_ROUNDED.plus(result)) + 0.0
+
+
+def conversion(unit: str, field: Field, *, reciprocal: bool = False) -> Conversion:
+    """How figures in a foreign unit become figures of a column.
+
+    Parameters
+    ----------
+    unit : str
+        As people write it: ``mNm``, ``oz-in``, ``g cm²``, ``rpm/V``, ``lb``.
+    field : Field
+        The column.
+    reciprocal : bool
+        Whether one over the foreign figure is meant.
+
+    Returns
+    -------
+    Conversion
+        The rule.
+
+    Raises
+    ------
+    UnitRefused
+        If the unit is not known, or measures something else than the column.
+    """
+    if unit.strip() == field.unit and not reciprocal:
+        return Conversion(factor=Decimal(1))
+    given, wanted = _quantity(unit), _quantity(field.unit)
+    magnitude = Decimal(given.magnitude)
+    if not magnitude.is_finite() or not _LEAST < magnitude < _GREATEST:
+        raise UnitRefused("is nothing to measure with; write it as mNm, g cm², oz-in, rpm/V, lb or V s/rad")
+    if field.unit == "°C":
+        return _temperature(unit, field)
+    factor = _factor(1 / given if reciprocal else given, wanted, unit, field, reciprocal=reciprocal)
+    _check_angle(unit, field)
+    return Conversion(factor=1 / factor if reciprocal else factor, reciprocal=reciprocal)
+
+
+def spelt_for_pint(unit: str) -> str:
+    """A unit as pint reads it."""
+    text = unit.strip()
+    for pattern, replacement in _SPELLINGS:
+        text = re.sub(pattern, replacement, text)
+    for joined, apart in _SEPARATE_POWERS:
+        text = re.sub(rf"\b{re.escape(joined)}(?!\d)", apart, text)
+    return "percent" if text == "%" else text or "dimensionless"
+
+
+@lru_cache(maxsize=1)
+def _registry() -> "pint.UnitRegistry[Any]":
+    """Pint's units; they take half a second to build and are built when the first unit is looked up."""
+    import pint
+
+    registry: pint.UnitRegistry[Any] = pint.UnitRegistry(non_int_type=Decimal)
+    for definition in _DEFINITIONS:
+        registry.define(definition)
+    return registry
+
+
+def _quantity(unit: str) -> Any:  # noqa: ANN401 - pint's quantities have no simple type
+    import pint
+
+    try:
+        # A factor may be part of a unit, as in V/(1000 rpm).
+        if _is_temperature(unit):
+            return _registry().Quantity(Decimal(1), "delta_degC")
+        parsed: Any = _registry().parse_expression(spelt_for_pint(unit))
+        units = getattr(parsed, "units", "dimensionless")
+        quantity = _registry().Quantity(Decimal(getattr(parsed, "magnitude", parsed)), units)
+        quantity.to_base_units()  # refuses what only a logarithm converts, such as dBm
+    except pint.PintError as error:
+        raise UnitRefused(f"is no known unit; write it as mNm, g cm², oz-in, rpm/V, lb or V s/rad ({error})") from error
+    except Exception as error:  # whatever pint's parser of expressions runs into
+        raise UnitRefused("cannot be read as a unit; write it as mNm, g cm², oz-in, rpm/V, lb or V s/rad") from error
+    return quantity
+
+
+def _factor(given: Any, wanted: Any, unit: str, field: Field, *, reciprocal: bool = False) -> Decimal:  # noqa: ANN401
+    import pint
+
+    try:
+        ratio = (given / wanted).to("dimensionless")
+    except pint.DimensionalityError as error:
+        own = field.unit or "a pure number"
+        remedy = "check which column the figure belongs to"
+        if not reciprocal and (1 / given).dimensionality == wanted.dimensionality:
+            remedy = "it is the other way round: state reciprocal = true, or take the column that is meant"
+        said = f"one over {unit}" if reciprocal else unit
+        raise UnitRefused(
+            f"{said} measures [{given.dimensionality}] and the column's {own} [{wanted.dimensionality}]; {remedy}"
+        ) from error
+    return Decimal(ratio.magnitude)
+
+
+def _check_angle(unit: str, field: Field) -> None:
+    """Refuse what pint, to which an angle is a number, would take: 1/s for rpm, or an angle for an efficiency."""
+    text = spelt_for_pint(unit)
+    if re.search(r"\b[kM]?Hz\b|hertz", text):
+        raise UnitRefused("does not say whether revolutions or radians are counted; write rev/s or rad/s")
+    has_angle = _ANGLE.search(text) is not None
+    if field.unit in _WITH_ANGLE and not has_angle:
+        raise UnitRefused(f"does not say of which angle; the column is in {field.unit}, write rpm, rad/s or deg")
+    if field.unit in _PURE and has_angle:
+        raise UnitRefused(f"is an angle, the column's {field.unit or 'a pure number'} is not; check the column")
+
+
+def _is_temperature(unit: str) -> bool:
+    return spelt_for_pint(unit) in {"degC", "degF", "K", "kelvin", "celsius", "fahrenheit"}
+
+
+def _temperature(unit: str, field: Field) -> Conversion:
+    if not _is_temperature(unit):
+        raise UnitRefused(f"is no temperature, the column is in {field.unit}; write °C, °F or K")
+    zero, one = (
+        Decimal(_registry().Quantity(Decimal(number), spelt_for_pint(unit)).to("degC").magnitude) for number in (0, 1)
+    )
+    return Conversion(factor=_ROUNDED.plus(one - zero), offset=zero)
