@@ -16,7 +16,7 @@ from actuator_select.model.joint import DriveLines, can_be_tested, exact_positio
 from actuator_select.model.kinematics import too_near
 from actuator_select.study import Study
 
-EXACT = 5  # best actuators that the exact joint test is made for
+EXACT = 8  # best actuators that the exact joint test is made for
 CORNERS = np.array(np.meshgrid([0, 1], [0, 1], [0, 1], indexing="ij")).reshape(3, -1).T
 
 

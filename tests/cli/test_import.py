@@ -38,12 +38,14 @@ def test_of_many_findings_the_first_and_their_number_are_told(run: Run, tmp_path
 
 
 def test_replace_tells_what_it_removed(run: Run, tmp_path: Path) -> None:
-    (tmp_path / "ropes.csv").write_text(f"id,source_id\na,{SOURCE}\nb,{SOURCE}\n")
-    run("catalog", "import", "ropes.csv")
-    (tmp_path / "ropes.csv").write_text(f"id,source_id\nb,{SOURCE}\n")
-    status, _, err = run("catalog", "import", "ropes.csv", "--replace")
+    table = tmp_path / "compatibilities.csv"
+    header = "id,motor_pattern,gearbox_pattern,source_id"
+    table.write_text(f"{header}\na,m*,g*,{SOURCE}\nb,n*,g*,{SOURCE}\n")
+    run("catalog", "import", table.name)
+    table.write_text(f"{header}\nb,n*,g*,{SOURCE}\n")
+    status, _, err = run("catalog", "import", table.name, "--replace")
     assert status == 0
-    assert "ropes: 0 added, 0 changed, 1 already there, 1 removed" in err
+    assert "compatibilities: 0 added, 0 changed, 1 already there, 1 removed" in err
 
 
 @pytest.mark.parametrize(

@@ -8,8 +8,8 @@ import pytest
 
 from actuator_select.database import Catalogue, open_catalogue
 from actuator_select.database.connection import writing
+from actuator_select.database.history import remove_rows
 from actuator_select.database.kinds import KINDS
-from actuator_select.database.queries import delete_rows
 
 SOURCE = "filipovic-kevac-2018"
 
@@ -25,7 +25,7 @@ def template(tmp_path_factory: pytest.TempPathFactory) -> Path:
         others["actuators"] = [row["id"] for row in made.rows("actuators") if "identified" in row["source_location"]]
         with writing(made._engine) as connection:  # noqa: SLF001
             for kind in reversed(KINDS):
-                delete_rows(connection, KINDS[kind], others[kind])
+                remove_rows(connection, KINDS[kind], others[kind], by="test")
     return path
 
 

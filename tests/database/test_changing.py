@@ -71,10 +71,11 @@ def test_everything_that_is_wrong_with_an_edit_is_told_and_nothing_written(own: 
     before, history = own.fingerprint(), own.history("m")
     values: dict[str, object] = {"rated_power_w": "0,5", "watts": 3, "mass_kg": 1, "source_id": "nowhere", "id": "n"}
     told = refusals(lambda: own.edit("m", values))
-    assert [problem.split(":")[0] for problem in told] == ["id", "watts", "rated_power_w", "source_id"]
-    assert "catalog copy m --as NEW" in told[0]
-    assert "write 0.5 with a point" in told[2]
-    assert "[W]" in told[2]
+    by_column = {problem.split(":")[0]: problem for problem in told}
+    assert set(by_column) == {"id", "watts", "rated_power_w", "source_id"}
+    assert "catalog copy m --as NEW" in by_column["id"]
+    assert "write 0.5 with a point" in by_column["rated_power_w"]
+    assert "[W]" in by_column["rated_power_w"]
     assert (own.fingerprint(), own.history("m")) == (before, history)
 
 
