@@ -14,7 +14,7 @@ from actuator_select.database.tables import ABSENT, Line, Table, kind_named
 from actuator_select.errors import InvalidRows, did_you_mean
 
 FORMAT, FORMAT_VERSION = "actuator-select catalogue", 1
-_NOT_LISTS = {"format", "format_version"}
+_NOT_LISTS = {"format", "format_version", "fingerprint"}
 
 
 def json_tables(path: Path) -> list[Table]:

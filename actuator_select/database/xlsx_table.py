@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 from actuator_select.database.cells import Reader, Refused, Value
 from actuator_select.database.fields import Field
 from actuator_select.database.tables import Line, Table
+from actuator_select.database.workbook_text import unescape_text
 from actuator_select.errors import InvalidRows
 
 if TYPE_CHECKING:
@@ -144,7 +145,7 @@ def _plain(value: object, formula: object) -> object:
         return FailedCell(value, "mend the formula, or leave the cell empty if the figure is unknown")
     if isinstance(value, datetime) and value.time() == time():
         return value.date()
-    return value
+    return unescape_text(value) if isinstance(value, str) else value
 
 
 def _adapt(field: Field, read: Reader) -> Reader:
