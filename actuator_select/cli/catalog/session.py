@@ -30,9 +30,11 @@ def finding_sentence(finding: "Finding") -> str:
 
 
 def warn_of(findings: "Sequence[Finding]") -> None:
-    """Warn of rows that do not agree with themselves."""
+    """Warn of rows that do not agree with themselves, with the explanation where one ships."""
     for finding in findings:
         console.warn(finding_sentence(finding))
+        if finding.explanation:
+            console.say(f"  Why: {' '.join(finding.explanation.split())}")
 
 
 def finding_record(finding: "Finding") -> dict[str, Any]:

@@ -164,7 +164,9 @@ def _value(field: "Field", value: object) -> str:
 
 
 def _citation(source: dict[str, Any]) -> str:
-    page = None if source["page"] is None else f"p. {source['page']}"
+    page = source["page"]
+    if page is not None and page[0].isdigit():
+        page = f"p. {page}"
     parts = (source["authors"], source["document"], source["publisher"], page, source["date"])
     return ", ".join(str(part) for part in parts if part is not None)
 
