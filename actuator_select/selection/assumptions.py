@@ -2,20 +2,13 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
+from actuator_select.selection.electrical import MOTOR_TERMINALS, NO_TERMINAL_VOLTAGE, Row
 from actuator_select.study.schema import AssumptionsTable
 from actuator_select.units import fraction, kg_m2
 
-Row = Mapping[str, Any]
-
-DIRECT_CURRENT = ("dc_terminal", "dc_phase_to_phase")  # conventions that eq. 34 holds for
-NO_DIRECT_CURRENT = {
-    "ac_rms_phase": "rms phase values of a servo amplifier",
-    "dc_controller": "values in front of built-in electronics",
-}
 SERVOS = ("pmsm_servo", "pmsm_direct_drive")  # whose convention has to be stated
 PHASES = ("bldc", "bldc_torque")
 
@@ -91,7 +84,7 @@ def with_assumptions(
 
 def why_no_voltage(row: Row) -> str:
     """Why eq. 34 says nothing about the motor of a row: what its electrical figures are; empty where it does."""
-    return NO_DIRECT_CURRENT.get(str(row.get("motor.electrical_convention")), "")
+    return NO_TERMINAL_VOLTAGE.get(str(row.get("motor.electrical_convention")), "")
 
 
 def _inertia(assumptions: AssumptionsTable) -> tuple[float, Assumed] | None:
@@ -145,7 +138,7 @@ def _direct_current(row: Row) -> tuple[float, tuple[Assumed, ...]]:
     """Whether the motor's electrical figures are DC, 1 or 0, NaN unknown; and whether that was taken for granted."""
     convention, construction = row.get("motor.electrical_convention"), row.get("motor.motor_type")
     if convention is not None:
-        return float(convention in DIRECT_CURRENT), ()
+        return float(convention in MOTOR_TERMINALS), ()
     if construction in SERVOS:
         return np.nan, ()
     if construction == "dc_brushed":

@@ -6,7 +6,8 @@ from dataclasses import dataclass
 from actuator_select.database import Catalogue
 from actuator_select.errors import NoCandidates, UnknownName, did_you_mean
 from actuator_select.model.components import ActuatorSet
-from actuator_select.selection.assumptions import Assumed, Row, with_assumptions
+from actuator_select.selection.assumptions import Assumed, with_assumptions
+from actuator_select.selection.electrical import Row, back_emf_constant
 from actuator_select.study import Study
 from actuator_select.study.schema import AssumptionsTable
 from actuator_select.units import fraction, kg_m2, metres, rad_per_s
@@ -16,12 +17,11 @@ def _as_printed(value: float) -> float:
     return value
 
 
-# Figure of the model, column of the catalogue, conversion.
+# Figure of the model, column of the catalogue, conversion; the back-EMF constant has two columns.
 FIGURE_COLUMNS: tuple[tuple[str, str, Callable[[float], float]], ...] = (
     ("motor_speed", "motor.rated_speed_rpm", rad_per_s),
     ("motor_torque", "motor.rated_torque_nm", _as_printed),
     ("voltage", "motor.nominal_voltage_v", _as_printed),
-    ("back_emf_constant", "motor.back_emf_constant_v_s_per_rad", _as_printed),
     ("torque_constant", "motor.torque_constant_nm_per_a", _as_printed),
     ("resistance", "motor.terminal_resistance_ohm", _as_printed),
     ("friction", "motor.viscous_friction_nm_s_per_rad", _as_printed),
@@ -171,8 +171,9 @@ def _figures(row: Row) -> dict[str, float]:
     figures = {
         figure: convert(float(row[column])) for figure, column, convert in FIGURE_COLUMNS if row.get(column) is not None
     }
-    if "back_emf_constant" not in figures and row.get("motor.speed_constant_rpm_per_v") is not None:
-        figures["back_emf_constant"] = 1.0 / rad_per_s(float(row["motor.speed_constant_rpm_per_v"]))
+    back_emf = back_emf_constant(row, "motor.")
+    if back_emf is not None:
+        figures["back_emf_constant"] = back_emf
     return figures | _transmission(row)
 
 

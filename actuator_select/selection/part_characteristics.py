@@ -5,17 +5,16 @@ voltage line of a DC motor is kT/R (U - kE ω), without friction; an AC servo ha
 values and its drive's voltage is not the motor's.
 """
 
-from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from enum import Enum
 from math import inf, isfinite, isinf, nan
-from typing import Any
 
 from actuator_select.errors import InvalidInput
+from actuator_select.model.actuation import speed_at_voltage, stall_torque
 from actuator_select.selection.candidates import from_rows
+from actuator_select.selection.electrical import ALTERNATING_CURRENT, Row, back_emf_constant
 from actuator_select.units import rad_per_s, rpm
 
-Row = Mapping[str, Any]
 Point = tuple[float, float]
 
 
@@ -221,7 +220,7 @@ def _motor(row: Row) -> Characteristics:
     torque, speed = sketch.figure("rated_torque_nm", "rated torque"), sketch.figure("rated_speed_rpm", "rated speed")
     peak = sketch.figure("peak_torque_nm", "peak torque")
     fastest = sketch.figure("max_speed_rpm", "maximum speed")
-    if row.get("electrical_convention") == "ac_rms_phase":
+    if row.get("electrical_convention") in ALTERNATING_CURRENT:
         _servo_regions(sketch, torque, speed, peak, fastest)
     else:
         _dc_regions(sketch, torque, speed, peak, fastest)
@@ -275,15 +274,10 @@ def _dc_regions(sketch: _Sketch, torque: float, speed: float, peak: float, faste
 def _voltage_line(sketch: _Sketch) -> Slope | None:
     """From stall torque to no-load speed, kT/R (U - kE ω) = 0; printed ends where constants are unknown."""
     voltage, resistance = sketch.figure("nominal_voltage_v"), sketch.figure("terminal_resistance_ohm")
-    torque_constant, back_emf = (
-        sketch.figure("torque_constant_nm_per_a"),
-        sketch.figure("back_emf_constant_v_s_per_rad"),
-    )
-    stall, no_load = torque_constant * voltage / resistance, rpm(voltage / back_emf)
-    if printed_speed := not isfinite(no_load):
-        no_load = voltage * sketch.figure("speed_constant_rpm_per_v")  # kE = 1 / speed constant
-        printed_speed = not isfinite(no_load)
-    printed_stall = not isfinite(stall)
+    torque_constant, known = sketch.figure("torque_constant_nm_per_a"), back_emf_constant(sketch.row)
+    back_emf = nan if known is None else known
+    stall, no_load = stall_torque(torque_constant, voltage, resistance), rpm(speed_at_voltage(voltage, back_emf))
+    printed_stall, printed_speed = not isfinite(stall), not isfinite(no_load)
     stall = sketch.figure("stall_torque_nm") if printed_stall else stall
     no_load = sketch.figure("no_load_speed_rpm") if printed_speed else no_load
     if isfinite(stall) and isfinite(no_load):

@@ -10,8 +10,9 @@ from dataclasses import dataclass
 from math import isfinite
 
 from actuator_select.database import Catalogue
+from actuator_select.selection.electrical import Row
 from actuator_select.selection.explanations import explanation_of
-from actuator_select.selection.plausibility_rules import RULES, SMALLEST_GROUP, Row, Rule
+from actuator_select.selection.plausibility_rules import RULES, SMALLEST_GROUP, Rule
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
