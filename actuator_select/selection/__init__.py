@@ -4,7 +4,7 @@ from actuator_select.model.exceedance import Exceedance
 from actuator_select.selection.catalogue_check import CatalogueCheck, review_catalogue
 from actuator_select.selection.cautions import Warned
 from actuator_select.selection.elastic import ElasticLengths, elastic_lengths
-from actuator_select.selection.plausibility import Finding, check_catalogue, check_rows
+from actuator_select.selection.plausibility import Finding, check_rows
 from actuator_select.selection.records import selection_record
 from actuator_select.selection.robot_sheet import RobotSheet, robot_sheet
 from actuator_select.selection.selection import (
@@ -35,7 +35,6 @@ __all__ = [
     "Sweep",
     "Warned",
     "WorkspaceResult",
-    "check_catalogue",
     "check_rows",
     "elastic_lengths",
     "evaluate",
