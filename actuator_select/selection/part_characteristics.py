@@ -341,14 +341,16 @@ def _actuator(row: Row) -> Characteristics:
     ratio, efficiency, radius = (float(one[0]) for one in (drive.ratio, drive.efficiency, drive.drum_radius))
     motor = _motor(_part(row, "motor"))
     speed_scale, load_scale = rad_per_s(1.0) * radius / ratio, ratio * efficiency / radius
-    names = {"ratio": ratio, "efficiency (no cable force of the motor is drawn)": efficiency, "drum radius": radius}
+    transmission = {"ratio": ratio, "efficiency": efficiency, "drum radius": radius}
+    without = {"efficiency": " (no cable force of the motor is drawn)"}
     sketch = _Sketch(row)
-    sketch.missing += [name for name, value in names.items() if not isfinite(value)]
+    sketch.missing += [f"{name}{without.get(name, '')}" for name, value in transmission.items() if not isfinite(value)]
     sketch.missing += [f"motor: {', '.join(motor.missing)}"] if motor.missing else []
     sketch.notes += [f"motor: {note}" for note in motor.notes]
     _scale(sketch, motor, speed_scale, load_scale)
-    if isfinite(efficiency):
-        sketch.notes.append(f"ratio {ratio:g}, efficiency {efficiency:.3g}, drum radius {radius * 1000.0:g} mm")
+    told = {"ratio": f"{ratio:g}", "efficiency": f"{efficiency:.3g}", "drum radius": f"{radius * 1000.0:g} mm"}
+    known = [f"{name} {told[name]}" for name, value in transmission.items() if isfinite(value)]
+    sketch.notes += [", ".join(known)] if known else []
     if row.get("gearbox_id") is not None:
         gearbox = _gearbox(_part(row, "gearbox"))
         sketch.missing += [f"gearbox: {', '.join(gearbox.missing)}"] if gearbox.missing else []
