@@ -126,7 +126,7 @@ def print_simulation(run: "Simulation") -> None:
         pushing = ", if its cables could push" if run.pushing else ""
         click.echo(f"Every limit holds over the whole move{pushing}.")
     for check, missing in run.missing.items():
-        click.echo(f"  {check.value} not evaluated: {unknown_words(missing)}")
+        click.echo(f"  {check.value} not evaluated: {unknown_words(missing, run.assumable)}")
     for check, reason in run.not_applicable.items():
         click.echo(f"  {inapplicable_words(check, reason)}")
     for assumed in run.candidates.assumed[0]:

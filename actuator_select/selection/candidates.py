@@ -1,11 +1,12 @@
 """From catalogue rows to the model's actuators: the one place where datasheet units become SI."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass
 
 from actuator_select.database import Catalogue
 from actuator_select.errors import NoCandidates, UnknownName, did_you_mean
 from actuator_select.model.components import ActuatorSet
+from actuator_select.model.evaluation import needed_figures
 from actuator_select.selection.assumptions import Assumed, with_assumptions
 from actuator_select.selection.electrical import Row, back_emf_constant
 from actuator_select.study import Study
@@ -58,14 +59,10 @@ class Candidates:
         """Names for people."""
         return [str(row["name"]) for row in self.rows]
 
-    def single(self, index: int) -> "Candidates":
-        """One of them alone."""
-        return Candidates(
-            rows=(self.rows[index],), actuators=self.actuators.take([index]), assumed=(self.assumed[index],)
-        )
 
-
-def from_rows(rows: Sequence[Row], assumptions: AssumptionsTable | None = None) -> Candidates:
+def from_rows(
+    rows: Sequence[Row], assumptions: AssumptionsTable | None = None, needed: Collection[str] | None = None
+) -> Candidates:
     """Convert catalogue rows.
 
     Parameters
@@ -74,6 +71,8 @@ def from_rows(rows: Sequence[Row], assumptions: AssumptionsTable | None = None) 
         Rows of ``actuators`` with their joined columns.
     assumptions : AssumptionsTable, optional
         What stands for figures that the rows do not state; nothing by default.
+    needed : collection of str, optional
+        Figures of the model that some check needs; of others nothing is assumed. All by default.
 
     Returns
     -------
@@ -81,7 +80,7 @@ def from_rows(rows: Sequence[Row], assumptions: AssumptionsTable | None = None) 
         In the order given.
     """
     stated = AssumptionsTable() if assumptions is None else assumptions
-    complete = [with_assumptions(row, _figures(row), stated) for row in rows]
+    complete = [with_assumptions(row, _figures(row), stated, needed) for row in rows]
     return Candidates(
         rows=tuple(rows),
         actuators=ActuatorSet.from_figures([figures for figures, _ in complete]),
@@ -131,7 +130,13 @@ def find_candidates(study: Study, catalogue: Catalogue, where: str = "") -> Cand
             if conditions
             else "the catalogue holds no actuator; `actuator-select catalog add actuators` adds one"
         )
-    return from_rows(rows, study.table.assumptions)
+    return study_candidates(study, rows)
+
+
+def study_candidates(study: Study, rows: Sequence[Row]) -> Candidates:
+    """Convert rows as a study asks for them: with its assumptions, as far as its checks need them."""
+    needed = {figure for check in study.checks for figure in needed_figures(check, study.tension_model)}
+    return from_rows(rows, study.table.assumptions, needed)
 
 
 def find_actuator(catalogue: Catalogue, actuator: str, assumptions: AssumptionsTable | None = None) -> Candidates:

@@ -1,6 +1,7 @@
 """The use case: a study and a catalogue become ranked actuators with their verdicts, and what to mind about them."""
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -12,7 +13,7 @@ from actuator_select.model.arrays import FloatArray, IntArray
 from actuator_select.model.demand import Progress
 from actuator_select.model.evaluation import Evaluation, evaluate_actuators, missing_figures
 from actuator_select.model.ranking import State, Verdict, meets_share, ranking_order, verdicts
-from actuator_select.selection.assumptions import Assumed, why_no_voltage
+from actuator_select.selection.assumptions import Assumed, assumption_keys, why_no_voltage
 from actuator_select.selection.candidates import Candidates, find_candidates
 from actuator_select.selection.cautions import Warned, demand_warnings
 from actuator_select.selection.places import (
@@ -47,6 +48,8 @@ class CheckVerdict:
         Where that is. [m]
     missing : tuple of str
         Figures that are unknown.
+    assumable : mapping of str to str
+        Those of them that the study may assume of this actuator, with the key that does so.
     reason : str
         Why a check that the study asks for does not apply to this actuator; else empty.
     """
@@ -56,6 +59,7 @@ class CheckVerdict:
     worst_utilisation: float | None = None
     worst_position: tuple[float, float, float] | None = None
     missing: tuple[str, ...] = ()
+    assumable: Mapping[str, str] = field(default_factory=dict)
     reason: str = ""
 
     @property
@@ -394,7 +398,13 @@ def _check_verdict(
     if not count.applicable[index]:
         return CheckVerdict(state=State.NOT_APPLICABLE, reason=why_no_voltage(result.candidates.rows[index]))
     if not count.evaluated[index]:
-        return CheckVerdict(state=State.NOT_EVALUATED, missing=missing[check][index])
+        keys = assumption_keys(result.candidates.rows[index])
+        lacking = missing[check][index]
+        return CheckVerdict(
+            state=State.NOT_EVALUATED,
+            missing=lacking,
+            assumable={figure: keys[figure] for figure in lacking if figure in keys},
+        )
     positions = count.positions[index]
     enough = bool(meets_share(positions, result.poses, required))
     where = None

@@ -1,6 +1,6 @@
 """Results in words, the same on the command line and in reports."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from math import inf, isinf
 
 import numpy as np
@@ -11,7 +11,7 @@ from actuator_select.model.exceedance import Exceedance
 from actuator_select.model.motion import MotionKind, SetShape
 from actuator_select.model.ranking import State, Verdict
 from actuator_select.model.tension import TensionModel
-from actuator_select.selection.assumptions import ASSUMABLE, Assumed
+from actuator_select.selection.assumptions import Assumed
 from actuator_select.selection.selection import CheckVerdict, RankedActuator, Selection
 from actuator_select.selection.simulation import UNITS, Simulation
 from actuator_select.study import Study
@@ -85,9 +85,9 @@ def check_notes(actuators: Sequence[RankedActuator]) -> list[str]:
     for actuator in actuators:
         for check, verdict in actuator.checks.items():
             if verdict.missing:
-                found.setdefault(f"{check.value} not evaluated, {unknown_words(verdict.missing)}", []).append(
-                    actuator.name
-                )
+                found.setdefault(
+                    f"{check.value} not evaluated, {unknown_words(verdict.missing, verdict.assumable)}", []
+                ).append(actuator.name)
             elif verdict.reason:
                 found.setdefault(inapplicable_words(check, verdict.reason), []).append(actuator.name)
     return [f"{some_of(names)}: {text}." for text, names in found.items()]
@@ -98,10 +98,10 @@ def inapplicable_words(check: Check, reason: str) -> str:
     return f"{check.value} not applicable, because its electrical figures are {reason}"
 
 
-def unknown_words(figures: Sequence[str]) -> str:
-    """Figures that a check lacks, and what would help: to state them, or an assumption where one is possible."""
+def unknown_words(figures: Sequence[str], assumable: Mapping[str, str]) -> str:
+    """Figures that a check lacks, and what would help: to state them, or the study's key that `assumable` has."""
     text = f"{', '.join(FIGURE_NAMES[name] for name in figures)} unknown"
-    keys = {name: " or ".join(ASSUMABLE[name]) for name in figures if name in ASSUMABLE}
+    keys = {name: assumable[name] for name in figures if name in assumable}
     if not keys:
         return text
     if len(keys) == len(figures):
