@@ -96,16 +96,9 @@ def command(
 
 def print_simulation(run: "Simulation") -> None:
     """Print the peaks per actuator, what exceeds which limit when, and warnings."""
+    from actuator_select.selection.move_wording import exceedance_words, move_words, pushing_words, unheld_words
     from actuator_select.selection.simulation import UNITS
-    from actuator_select.selection.wording import (
-        assumed_words,
-        exceedance_words,
-        inapplicable_words,
-        move_words,
-        pushing_words,
-        unheld_words,
-        unknown_words,
-    )
+    from actuator_select.selection.wording import assumed_words, inapplicable_words, unknown_words
 
     click.echo(move_words(run))
     header = ["actuator", *(f"|{check.value}| [{UNITS[check]}]" for check in run.checks)]

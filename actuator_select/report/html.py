@@ -22,7 +22,7 @@ from actuator_select.report.style import data_uri
 from actuator_select.report.sweep_figures import sweep_figure
 from actuator_select.report.workspace_figures import share_bars, slice_panels
 from actuator_select.report.workspace_panels import workspace_panels
-from actuator_select.selection import RankedActuator, Selection, wording
+from actuator_select.selection import RankedActuator, Selection, move_wording, wording
 from actuator_select.selection.dossier import Dossier, build_dossier
 from actuator_select.selection.plausibility import figure as four_digits
 from actuator_select.selection.sweeps import Sweep
@@ -94,9 +94,13 @@ def render_report(selection: Selection, catalogue: Catalogue, details: ReportDet
             study=selection.study,
             details=ReportDetails() if details is None else details,
             words=wording,
+            moves=move_wording,
             shortlist=shortlist(selection),
             pushing=_pushing(selection),
             assumed=wording.assumption_notes(dossier.shown),
+            unchecked=wording.unchecked_limits(
+                [selection.result.candidates.rows[actuator.index] for actuator in dossier.shown]
+            ),
             compared=_compared(selection),
             reasons=reasons_why_nothing_holds(selection.study, selection.attainable_poses),
             apart=len(selection.study.positions) - selection.poses,

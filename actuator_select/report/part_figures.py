@@ -10,7 +10,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch, Polygon
 
 from actuator_select.report.style import BLUE, GREEN, GREY, ORANGE, RED, house_style, new_figure
-from actuator_select.selection.part_characteristics import Characteristics, Duty, Limit
+from actuator_select.selection.part_sketch import Characteristics, Duty, Limit
 from actuator_select.selection.plausibility import figure as four_digits
 
 ROOM = 1.12  # of the axes around the greatest figure

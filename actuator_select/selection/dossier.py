@@ -17,12 +17,8 @@ from actuator_select.selection.assumptions import Assumed, why_no_voltage
 from actuator_select.selection.candidates import from_rows, study_candidates
 from actuator_select.selection.models import ModelCount, compare_models
 from actuator_select.selection.plausibility import Finding, check_rows
-from actuator_select.selection.selection import (
-    RankedActuator,
-    Selection,
-    evaluate_candidates,
-    rank_result,
-)
+from actuator_select.selection.results import RankedActuator, Selection
+from actuator_select.selection.selection import evaluate_candidates, rank_result
 from actuator_select.selection.simulation import Simulation, simulate_candidate
 from actuator_select.study import Study, Variant
 from actuator_select.units import rad_per_s, rpm

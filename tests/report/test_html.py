@@ -2,6 +2,7 @@
 
 import re
 from datetime import UTC, datetime
+from html import unescape
 from pathlib import Path
 
 import pytest
@@ -30,6 +31,12 @@ def test_the_first_section_has_verdict_weakest_check_pose_and_what_is_not_modell
     assert "acceleration, 204/216 on its own" in text
     assert "x 3.047, y 2.047, z -0.153 m" in text
     assert "What is not modelled Sag and elasticity" in text
+    for limits in (
+        "Not checked, even where the catalogue states it: the motor's peak torque, greatest speed and heating;",
+        "the gearbox's continuous and intermittent torque and input speed; the inertia of gearbox and drum;",
+        "the rope's breaking force.",
+    ):
+        assert limits in unescape(text)
     assert "pseudo_inverse" in text
 
 

@@ -14,7 +14,8 @@ from actuator_select.database import Catalogue, open_catalogue
 from actuator_select.errors import InvalidInput
 from actuator_select.report.part_figures import part_figure
 from actuator_select.report.style import image_bytes
-from actuator_select.selection.part_characteristics import Characteristics, Duty, characteristics
+from actuator_select.selection.part_characteristics import characteristics
+from actuator_select.selection.part_sketch import Characteristics, Duty
 from actuator_select.selection.plausibility import figure as four_digits
 
 SERVO = {
