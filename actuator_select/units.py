@@ -19,6 +19,16 @@ def rpm(rad_per_s: Quantity) -> Quantity:
     return rad_per_s * (30.0 / pi)
 
 
+def v_s_per_rad(rpm_per_v: Quantity) -> Quantity:
+    """Back-EMF constant in V s/rad from a speed constant in rpm/V, its reciprocal."""
+    return 1.0 / rad_per_s(rpm_per_v)
+
+
+def rpm_per_v(v_s_per_rad: Quantity) -> Quantity:
+    """Speed constant in rpm/V from a back-EMF constant in V s/rad, its reciprocal."""
+    return rpm(1.0 / v_s_per_rad)
+
+
 def kg_m2(g_cm2: Quantity) -> Quantity:
     """Moment of inertia in kg m² from g cm²."""
     return g_cm2 * 1e-7

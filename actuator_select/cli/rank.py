@@ -8,7 +8,9 @@ import click
 from actuator_select.cli import console, options
 
 if TYPE_CHECKING:
-    from actuator_select.selection import Selection
+    from collections.abc import Sequence
+
+    from actuator_select.selection import RankedActuator, Selection
 
 
 SAFE_RULE = (
@@ -77,56 +79,56 @@ def command(
 
 
 def print_ranking(selection: "Selection", *, only_meeting: bool) -> None:
-    """Print the answer in three lines, what the percentage is of, the table, and the warnings."""
-    from actuator_select.selection.wording import (
-        actuator_count,
-        assumption_notes,
-        check_cell,
-        check_notes,
-        heading,
-        limited_by,
-        marked,
-        share,
-        summary,
-    )
+    """Print the answer in three lines, what the percentage is of, the table, its notes, and the warnings."""
+    from actuator_select.selection.wording import actuator_count, heading, summary
     from actuator_select.selection.workspaces import reasons_why_nothing_holds
 
     why = reasons_why_nothing_holds(selection.study, selection.attainable_poses)
     for line in [*summary(selection), *why, "", *heading(selection)]:
         click.echo(line)
     actuators = selection.shown(only_meeting=only_meeting)
-    checks = list(selection.study.checks)
-    header = ["", "actuator", "verdict", "feasible", *(check.value for check in checks), "limited by"]
-    rows = []
-    for place, actuator in enumerate(actuators, start=1):
-        rows.append(
-            [
-                str(place),
-                marked(actuator),
-                actuator.verdict.value,
-                share(actuator, selection.poses),
-                *(check_cell(actuator.checks[check], selection.poses) for check in checks),
-                limited_by(actuator, selection.poses, selection.attainable_poses),
-            ]
-        )
-    if rows:
-        console.emit_table(header, rows, right=range(3, 4 + len(checks)))
-        for note in check_notes(actuators):
-            click.echo(note)
-        for note in assumption_notes(actuators):
-            click.echo(f"* Assumed: {note}")
-        click.echo(
-            "Each check: positions that this limit alone allows, worst demand / limit over the whole motion set."
-        )
-        if not selection.study.tension_model.lets_cables_push:
-            click.echo(SAFE_RULE)
-            exact = [f"{one.name} {one.exact_poses}" for one in actuators if one.exact_poses is not None]
-            click.echo(f"By the exact joint test, positions: {', '.join(exact)}." if exact else NO_EXACT_TEST)
+    if actuators:
+        _print_table(selection, actuators)
+        for line in _notes(selection, actuators):
+            click.echo(line)
     meeting, ranked = len(selection.shown(only_meeting=True)), actuator_count(len(selection.ranked))
     verb = "meets" if 1 in (meeting, len(selection.ranked)) else "meet"
     click.echo(f"{meeting} of {ranked} {verb} the requirement of {selection.required_percent:g} %.")
     for warning in selection.warnings:
         console.warn(warning.text)
+
+
+def _print_table(selection: "Selection", actuators: "Sequence[RankedActuator]") -> None:
+    """Print a row per actuator: verdict, share, every check of the study, what limits it."""
+    from actuator_select.selection.wording import check_cell, limited_by, marked, share
+
+    checks = selection.study.checks
+    header = ["", "actuator", "verdict", "feasible", *(check.value for check in checks), "limited by"]
+    rows = [
+        [
+            str(place),
+            marked(actuator),
+            actuator.verdict.value,
+            share(actuator, selection.poses),
+            *(check_cell(actuator.checks[check], selection.poses) for check in checks),
+            limited_by(actuator, selection.poses, selection.attainable_poses),
+        ]
+        for place, actuator in enumerate(actuators, start=1)
+    ]
+    console.emit_table(header, rows, right=range(3, 4 + len(checks)))
+
+
+def _notes(selection: "Selection", actuators: "Sequence[RankedActuator]") -> list[str]:
+    """What to know about the table: checks not evaluated, assumptions, how a check counts, what is not checked."""
+    from actuator_select.selection.wording import assumption_notes, check_notes, unchecked_limits
+
+    notes = [*check_notes(actuators), *(f"* Assumed: {note}" for note in assumption_notes(actuators))]
+    notes.append("Each check: positions that this limit alone allows, worst demand / limit over the whole motion set.")
+    if not selection.study.tension_model.lets_cables_push:
+        exact = [f"{one.name} {one.exact_poses}" for one in actuators if one.exact_poses is not None]
+        notes += [SAFE_RULE, f"By the exact joint test, positions: {', '.join(exact)}." if exact else NO_EXACT_TEST]
+    rows = [selection.result.candidates.rows[actuator.index] for actuator in actuators]
+    return [*notes, f"Not checked, even where the catalogue states it: {unchecked_limits(rows)}."]
 
 
 def _emit_csv(selection: "Selection", *, only_meeting: bool) -> None:

@@ -96,16 +96,9 @@ def command(
 
 def print_simulation(run: "Simulation") -> None:
     """Print the peaks per actuator, what exceeds which limit when, and warnings."""
+    from actuator_select.selection.move_wording import exceedance_words, move_words, pushing_words, unheld_words
     from actuator_select.selection.simulation import UNITS
-    from actuator_select.selection.wording import (
-        assumed_words,
-        exceedance_words,
-        inapplicable_words,
-        move_words,
-        pushing_words,
-        unheld_words,
-        unknown_words,
-    )
+    from actuator_select.selection.wording import assumed_words, inapplicable_words, unknown_words
 
     click.echo(move_words(run))
     header = ["actuator", *(f"|{check.value}| [{UNITS[check]}]" for check in run.checks)]
@@ -126,7 +119,7 @@ def print_simulation(run: "Simulation") -> None:
         pushing = ", if its cables could push" if run.pushing else ""
         click.echo(f"Every limit holds over the whole move{pushing}.")
     for check, missing in run.missing.items():
-        click.echo(f"  {check.value} not evaluated: {unknown_words(missing)}")
+        click.echo(f"  {check.value} not evaluated: {unknown_words(missing, run.assumable)}")
     for check, reason in run.not_applicable.items():
         click.echo(f"  {inapplicable_words(check, reason)}")
     for assumed in run.candidates.assumed[0]:

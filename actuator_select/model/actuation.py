@@ -15,6 +15,7 @@ import numpy as np
 
 from actuator_select.model.arrays import BoolArray, FloatArray, IntArray
 from actuator_select.model.components import ActuatorSet
+from actuator_select.units import Quantity
 
 
 class Check(StrEnum):
@@ -74,6 +75,37 @@ class ShaftCharacteristics:
     damping_gain: FloatArray
     load_gain: FloatArray
     inertia: FloatArray
+
+
+def stall_torque(torque_constant: Quantity, voltage: Quantity, resistance: Quantity) -> Quantity:
+    """C_m U/R_r, torque of the blocked shaft at a voltage, from eq. 21 at rest. [N m]
+
+    Parameters
+    ----------
+    torque_constant, voltage, resistance : float or array
+        Of a DC motor, between its terminals. [N m/A, V, Ω]
+    """
+    return torque_constant * voltage / resistance
+
+
+def speed_at_voltage(
+    voltage: Quantity, back_emf_constant: Quantity, resistance: Quantity | float = 0.0, current: Quantity | float = 0.0
+) -> Quantity:
+    """(U - R_r I)/C_e, steady speed of the motor while it takes a current; by default that of a motor without losses.
+
+    Parameters
+    ----------
+    voltage, back_emf_constant : float or array
+        Of a DC motor, between its terminals. [V, V s/rad]
+    resistance, current : float or array
+        What the voltage drops over; the no-load current gives the no-load speed. [Ω, A]
+
+    Returns
+    -------
+    float or array
+        Negative where the drop exceeds the voltage. [rad/s]
+    """
+    return (voltage - resistance * current) / back_emf_constant
 
 
 def torque_ratio(actuators: ActuatorSet) -> FloatArray:

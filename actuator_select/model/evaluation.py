@@ -106,17 +106,23 @@ class Evaluation:
         return number
 
 
+def needed_figures(check: Check, model: TensionModel) -> tuple[str, ...]:
+    """Figures of an actuator that `check` needs under a tension model."""
+    if check is Check.ACCELERATION and not model.lets_cables_push:  # of load and rotor together
+        return tuple(dict.fromkeys(FIGURES_NEEDED[Check.TORQUE] + FIGURES_NEEDED[check]))
+    return FIGURES_NEEDED[check]
+
+
 def missing_figures(actuators: ActuatorSet, check: Check, model: TensionModel) -> list[tuple[str, ...]]:
     """Figures that `check` needs under a tension model and an actuator lacks, one tuple per actuator.
 
     Empty where the check does not apply. Unknown `direct_current` is called by what has to be stated,
     ``electrical_convention``.
     """
-    needed = FIGURES_NEEDED[check]
-    if check is Check.ACCELERATION and not model.lets_cables_push:  # of load and rotor together
-        needed = tuple(dict.fromkeys(FIGURES_NEEDED[Check.TORQUE] + needed))
     applies = is_applicable(actuators, check)
-    unknown = {STATED_AS.get(name, name): np.isnan(getattr(actuators, name)) & applies for name in needed}
+    unknown = {
+        STATED_AS.get(name, name): np.isnan(getattr(actuators, name)) & applies for name in needed_figures(check, model)
+    }
     return [tuple(name for name, missing in unknown.items() if missing[index]) for index in range(len(actuators))]
 
 

@@ -22,14 +22,16 @@ from actuator_select.report.style import data_uri
 from actuator_select.report.sweep_figures import sweep_figure
 from actuator_select.report.workspace_figures import share_bars, slice_panels
 from actuator_select.report.workspace_panels import workspace_panels
-from actuator_select.selection import RankedActuator, Selection, wording
+from actuator_select.selection import RankedActuator, Selection, move_wording, wording
 from actuator_select.selection.dossier import Dossier, build_dossier
+from actuator_select.selection.plausibility import figure as four_digits
 from actuator_select.selection.sweeps import Sweep
 from actuator_select.selection.workspace_dossier import study_sweeps
 from actuator_select.selection.workspaces import reasons_why_nothing_holds
 from actuator_select.study import Study
 
 SHORTLIST = 3
+LARGEST_FORCE = 1e7  # N; figures from here on, such as of singular poses, are written with an exponent
 PLANES = 3  # actuators whose torque-speed plane and slices are drawn
 MANY_SWEEPS = 4  # more are drawn half as wide, two beside each other
 LIBRARIES = ("numpy", "scipy", "sqlalchemy", "pandas", "matplotlib")
@@ -92,9 +94,13 @@ def render_report(selection: Selection, catalogue: Catalogue, details: ReportDet
             study=selection.study,
             details=ReportDetails() if details is None else details,
             words=wording,
+            moves=move_wording,
             shortlist=shortlist(selection),
             pushing=_pushing(selection),
             assumed=wording.assumption_notes(dossier.shown),
+            unchecked=wording.unchecked_limits(
+                [selection.result.candidates.rows[actuator.index] for actuator in dossier.shown]
+            ),
             compared=_compared(selection),
             reasons=reasons_why_nothing_holds(selection.study, selection.attainable_poses),
             apart=len(selection.study.positions) - selection.poses,
@@ -146,7 +152,7 @@ def margin_words(study: Study) -> str:
 
 def _digits(value: float) -> str:
     """Four significant digits, without an exponent in the range of forces."""
-    return f"{value:.0f}" if 1e4 <= abs(value) < 1e7 else f"{value:.4g}"  # noqa: PLR2004 - see above
+    return four_digits(value) if abs(value) < LARGEST_FORCE else f"{value:.4g}"
 
 
 def _plain_zero(value: float) -> str:

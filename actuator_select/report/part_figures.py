@@ -10,9 +10,9 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch, Polygon
 
 from actuator_select.report.style import BLUE, GREEN, GREY, ORANGE, RED, house_style, new_figure
-from actuator_select.selection.part_characteristics import Characteristics, Duty, Limit
+from actuator_select.selection.part_sketch import Characteristics, Duty, Limit
+from actuator_select.selection.plausibility import figure as four_digits
 
-WHOLE_FROM = 1e4  # figures from here on are written as whole numbers
 ROOM = 1.12  # of the axes around the greatest figure
 TEXT_WIDTH = 105  # characters of a line below the axes
 WIDTH, HEIGHT = 6.8, 3.7  # of the axes, inches
@@ -86,7 +86,7 @@ def _draw(axes: Axes, part: Characteristics) -> list[Patch | Line2D]:
     for slope in part.slopes:
         dash = DASHES[1] if slope.printed else DASHES[0]
         axes.plot([0.0, slope.speed], [slope.load, 0.0], color=RED, linestyle=dash, linewidth=1.5, clip_on=False)
-        ends = f"{_figure(slope.load)} {part.load_unit} to {_figure(slope.speed)} {part.speed_unit}"
+        ends = f"{four_digits(slope.load)} {part.load_unit} to {four_digits(slope.speed)} {part.speed_unit}"
         handles.append(Line2D([], [], color=RED, linestyle=dash, linewidth=1.5, label=f"{slope.name},\n{ends}"))
     styles: dict[tuple[Duty, bool], int] = {}
     for limit in part.limits:
@@ -95,7 +95,7 @@ def _draw(axes: Axes, part: Characteristics) -> list[Patch | Line2D]:
         handles.append(_draw_limit(axes, part, limit, DASHES[(number + (0 if limit.of_load else 2)) % len(DASHES)]))
     for mark in part.marks:
         axes.plot(mark.speed, mark.load, color="black", marker="o", markersize=5, linestyle="none", clip_on=False)
-        at = f"{_figure(mark.speed)} {part.speed_unit}, {_figure(mark.load)} {part.load_unit}"
+        at = f"{four_digits(mark.speed)} {part.speed_unit}, {four_digits(mark.load)} {part.load_unit}"
         handles.append(Line2D([], [], color="black", marker="o", linestyle="none", label=f"{mark.name}, {at}"))
     if part.limits or part.slopes:
         axes.grid(color=GREY, alpha=0.2, linewidth=0.5)
@@ -110,9 +110,5 @@ def _draw_limit(axes: Axes, part: Characteristics, limit: Limit, dash: Literal["
         axes.axvline(limit.value, color=colour, linestyle=dash, linewidth=1.3)
     unit = part.load_unit if limit.of_load else part.speed_unit
     return Line2D(
-        [], [], color=colour, linestyle=dash, linewidth=1.3, label=f"{limit.name}, {_figure(limit.value)} {unit}"
+        [], [], color=colour, linestyle=dash, linewidth=1.3, label=f"{limit.name}, {four_digits(limit.value)} {unit}"
     )
-
-
-def _figure(value: float) -> str:
-    return f"{value:.4g}" if abs(value) < WHOLE_FROM else f"{value:.0f}"

@@ -4,17 +4,11 @@ from actuator_select.model.exceedance import Exceedance
 from actuator_select.selection.catalogue_check import CatalogueCheck, review_catalogue
 from actuator_select.selection.cautions import Warned
 from actuator_select.selection.elastic import ElasticLengths, elastic_lengths
-from actuator_select.selection.plausibility import Finding, check_catalogue, check_rows
+from actuator_select.selection.plausibility import Finding, check_rows
 from actuator_select.selection.records import selection_record
+from actuator_select.selection.results import CheckVerdict, RankedActuator, Selection, StudyEvaluation
 from actuator_select.selection.robot_sheet import RobotSheet, robot_sheet
-from actuator_select.selection.selection import (
-    CheckVerdict,
-    RankedActuator,
-    Selection,
-    StudyEvaluation,
-    evaluate,
-    rank,
-)
+from actuator_select.selection.selection import evaluate, rank
 from actuator_select.selection.simulation import Simulation, simulate
 from actuator_select.selection.support_intervals import RopeTensions, rope_tensions
 from actuator_select.selection.sweeps import Sweep, sweep_workspace
@@ -35,7 +29,6 @@ __all__ = [
     "Sweep",
     "Warned",
     "WorkspaceResult",
-    "check_catalogue",
     "check_rows",
     "elastic_lengths",
     "evaluate",

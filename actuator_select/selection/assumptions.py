@@ -1,30 +1,21 @@
 """What the catalogue does not state: assumptions that the study names, and what the electrical figures hold for."""
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
+from actuator_select.selection.electrical import MOTOR_TERMINALS, NO_TERMINAL_VOLTAGE, Row
 from actuator_select.study.schema import AssumptionsTable
 from actuator_select.units import fraction, kg_m2
 
-Row = Mapping[str, Any]
-
-DIRECT_CURRENT = ("dc_terminal", "dc_phase_to_phase")  # conventions that eq. 34 holds for
-NO_DIRECT_CURRENT = {
-    "ac_rms_phase": "rms phase values of a servo amplifier",
-    "dc_controller": "values in front of built-in electronics",
-}
 SERVOS = ("pmsm_servo", "pmsm_direct_drive")  # whose convention has to be stated
 PHASES = ("bldc", "bldc_torque")
 
-# Figure of the model, key of the study that may stand for it.
-ASSUMABLE: dict[str, tuple[str, ...]] = {
-    "rotor_inertia": ("assumptions.rotor_inertia_g_cm2",),
-    "friction": ("assumptions.viscous_friction_nm_s_per_rad",),
-    "efficiency": ("assumptions.gearbox_efficiency_of_maximum", "assumptions.gearbox_efficiency_percent"),
-}
+INERTIA_KEY = "assumptions.rotor_inertia_g_cm2"
+FRICTION_KEY = "assumptions.viscous_friction_nm_s_per_rad"
+SHARE_KEY = "assumptions.gearbox_efficiency_of_maximum"
+EFFICIENCY_KEY = "assumptions.gearbox_efficiency_percent"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -56,7 +47,7 @@ class Assumed:
 
 
 def with_assumptions(
-    row: Row, figures: Mapping[str, float], assumptions: AssumptionsTable
+    row: Row, figures: Mapping[str, float], assumptions: AssumptionsTable, needed: Collection[str] | None = None
 ) -> tuple[dict[str, float], tuple[Assumed, ...]]:
     """Complete one actuator's figures by what may be assumed of them.
 
@@ -68,6 +59,8 @@ def with_assumptions(
         What it states, SI units. A figure that stands here stays as it is.
     assumptions : AssumptionsTable
         Of the study.
+    needed : collection of str, optional
+        Figures that some check needs; of others nothing is assumed. All by default.
 
     Returns
     -------
@@ -77,21 +70,36 @@ def with_assumptions(
     complete = dict(figures)
     taken: list[Assumed] = []
     complete["direct_current"], reading = _direct_current(row)
+    if reading and needed is not None and "direct_current" not in needed:
+        complete["direct_current"], reading = np.nan, ()
     damped = complete["direct_current"] != 0.0  # friction enters eq. 21 alone
     for figure, found in (
         ("rotor_inertia", _inertia(assumptions)),
         ("friction", _friction(assumptions) if damped else None),
         ("efficiency", _efficiency(row, assumptions)),
     ):
-        if figure not in complete and found is not None:
+        if figure not in complete and found is not None and (needed is None or figure in needed):
             complete[figure], assumed = found
             taken.append(assumed)
     return complete, (*taken, *reading)
 
 
+def assumption_keys(row: Row) -> dict[str, str]:
+    """Figures of the model that a study may assume of an actuator where they are unknown, with the key that does so.
+
+    Of a gearbox that states its greatest efficiency a share can be taken, of any other a figure be given.
+    """
+    stated = row.get("gearbox.max_efficiency_percent") is not None
+    return {
+        "rotor_inertia": INERTIA_KEY,
+        "friction": FRICTION_KEY,
+        "efficiency": SHARE_KEY if stated else EFFICIENCY_KEY,
+    }
+
+
 def why_no_voltage(row: Row) -> str:
     """Why eq. 34 says nothing about the motor of a row: what its electrical figures are; empty where it does."""
-    return NO_DIRECT_CURRENT.get(str(row.get("motor.electrical_convention")), "")
+    return NO_TERMINAL_VOLTAGE.get(str(row.get("motor.electrical_convention")), "")
 
 
 def _inertia(assumptions: AssumptionsTable) -> tuple[float, Assumed] | None:
@@ -103,7 +111,7 @@ def _inertia(assumptions: AssumptionsTable) -> tuple[float, Assumed] | None:
         column="motor.rotor_inertia_g_cm2",
         value=value,
         unit="g cm²",
-        key="assumptions.rotor_inertia_g_cm2",
+        key=INERTIA_KEY,
         text=f"rotor inertia {value:g} g cm²",
     )
 
@@ -117,7 +125,7 @@ def _friction(assumptions: AssumptionsTable) -> tuple[float, Assumed] | None:
         column="motor.viscous_friction_nm_s_per_rad",
         value=value,
         unit="N m s/rad",
-        key="assumptions.viscous_friction_nm_s_per_rad",
+        key=FRICTION_KEY,
         text=f"viscous friction {value:g} N m s/rad",
     )
 
@@ -129,10 +137,10 @@ def _efficiency(row: Row, assumptions: AssumptionsTable) -> tuple[float, Assumed
     if row.get("gearbox_id") is None:
         return None
     if greatest is not None and share is not None:
-        value, key = share * float(greatest), "assumptions.gearbox_efficiency_of_maximum"
+        value, key = share * float(greatest), SHARE_KEY
         text = f"gearbox efficiency {share:g} × the greatest that is stated"
     elif greatest is None and given is not None:
-        value, key = given, "assumptions.gearbox_efficiency_percent"
+        value, key = given, EFFICIENCY_KEY
         text = f"gearbox efficiency {given:g} %"
     else:
         return None
@@ -145,7 +153,7 @@ def _direct_current(row: Row) -> tuple[float, tuple[Assumed, ...]]:
     """Whether the motor's electrical figures are DC, 1 or 0, NaN unknown; and whether that was taken for granted."""
     convention, construction = row.get("motor.electrical_convention"), row.get("motor.motor_type")
     if convention is not None:
-        return float(convention in DIRECT_CURRENT), ()
+        return float(convention in MOTOR_TERMINALS), ()
     if construction in SERVOS:
         return np.nan, ()
     if construction == "dc_brushed":

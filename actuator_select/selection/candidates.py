@@ -1,12 +1,14 @@
 """From catalogue rows to the model's actuators: the one place where datasheet units become SI."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass
 
 from actuator_select.database import Catalogue
 from actuator_select.errors import NoCandidates, UnknownName, did_you_mean
 from actuator_select.model.components import ActuatorSet
-from actuator_select.selection.assumptions import Assumed, Row, with_assumptions
+from actuator_select.model.evaluation import needed_figures
+from actuator_select.selection.assumptions import Assumed, with_assumptions
+from actuator_select.selection.electrical import Row, back_emf_constant
 from actuator_select.study import Study
 from actuator_select.study.schema import AssumptionsTable
 from actuator_select.units import fraction, kg_m2, metres, rad_per_s
@@ -16,12 +18,11 @@ def _as_printed(value: float) -> float:
     return value
 
 
-# Figure of the model, column of the catalogue, conversion.
+# Figure of the model, column of the catalogue, conversion; the back-EMF constant has two columns.
 FIGURE_COLUMNS: tuple[tuple[str, str, Callable[[float], float]], ...] = (
     ("motor_speed", "motor.rated_speed_rpm", rad_per_s),
     ("motor_torque", "motor.rated_torque_nm", _as_printed),
     ("voltage", "motor.nominal_voltage_v", _as_printed),
-    ("back_emf_constant", "motor.back_emf_constant_v_s_per_rad", _as_printed),
     ("torque_constant", "motor.torque_constant_nm_per_a", _as_printed),
     ("resistance", "motor.terminal_resistance_ohm", _as_printed),
     ("friction", "motor.viscous_friction_nm_s_per_rad", _as_printed),
@@ -58,14 +59,10 @@ class Candidates:
         """Names for people."""
         return [str(row["name"]) for row in self.rows]
 
-    def single(self, index: int) -> "Candidates":
-        """One of them alone."""
-        return Candidates(
-            rows=(self.rows[index],), actuators=self.actuators.take([index]), assumed=(self.assumed[index],)
-        )
 
-
-def from_rows(rows: Sequence[Row], assumptions: AssumptionsTable | None = None) -> Candidates:
+def from_rows(
+    rows: Sequence[Row], assumptions: AssumptionsTable | None = None, needed: Collection[str] | None = None
+) -> Candidates:
     """Convert catalogue rows.
 
     Parameters
@@ -74,6 +71,8 @@ def from_rows(rows: Sequence[Row], assumptions: AssumptionsTable | None = None) 
         Rows of ``actuators`` with their joined columns.
     assumptions : AssumptionsTable, optional
         What stands for figures that the rows do not state; nothing by default.
+    needed : collection of str, optional
+        Figures of the model that some check needs; of others nothing is assumed. All by default.
 
     Returns
     -------
@@ -81,7 +80,7 @@ def from_rows(rows: Sequence[Row], assumptions: AssumptionsTable | None = None) 
         In the order given.
     """
     stated = AssumptionsTable() if assumptions is None else assumptions
-    complete = [with_assumptions(row, _figures(row), stated) for row in rows]
+    complete = [with_assumptions(row, _figures(row), stated, needed) for row in rows]
     return Candidates(
         rows=tuple(rows),
         actuators=ActuatorSet.from_figures([figures for figures, _ in complete]),
@@ -131,7 +130,13 @@ def find_candidates(study: Study, catalogue: Catalogue, where: str = "") -> Cand
             if conditions
             else "the catalogue holds no actuator; `actuator-select catalog add actuators` adds one"
         )
-    return from_rows(rows, study.table.assumptions)
+    return study_candidates(study, rows)
+
+
+def study_candidates(study: Study, rows: Sequence[Row]) -> Candidates:
+    """Convert rows as a study asks for them: with its assumptions, as far as its checks need them."""
+    needed = {figure for check in study.checks for figure in needed_figures(check, study.tension_model)}
+    return from_rows(rows, study.table.assumptions, needed)
 
 
 def find_actuator(catalogue: Catalogue, actuator: str, assumptions: AssumptionsTable | None = None) -> Candidates:
@@ -171,8 +176,9 @@ def _figures(row: Row) -> dict[str, float]:
     figures = {
         figure: convert(float(row[column])) for figure, column, convert in FIGURE_COLUMNS if row.get(column) is not None
     }
-    if "back_emf_constant" not in figures and row.get("motor.speed_constant_rpm_per_v") is not None:
-        figures["back_emf_constant"] = 1.0 / rad_per_s(float(row["motor.speed_constant_rpm_per_v"]))
+    back_emf = back_emf_constant(row, "motor.")
+    if back_emf is not None:
+        figures["back_emf_constant"] = back_emf
     return figures | _transmission(row)
 
 

@@ -14,15 +14,11 @@ from actuator_select.model.drive_cloud import DriveCloud, drive_cloud
 from actuator_select.model.evaluation import position_utilisation
 from actuator_select.model.ranking import Verdict, required_positions
 from actuator_select.selection.assumptions import Assumed, why_no_voltage
-from actuator_select.selection.candidates import from_rows
+from actuator_select.selection.candidates import from_rows, study_candidates
 from actuator_select.selection.models import ModelCount, compare_models
 from actuator_select.selection.plausibility import Finding, check_rows
-from actuator_select.selection.selection import (
-    RankedActuator,
-    Selection,
-    evaluate_candidates,
-    rank_result,
-)
+from actuator_select.selection.results import RankedActuator, Selection
+from actuator_select.selection.selection import evaluate_candidates, rank_result
 from actuator_select.selection.simulation import Simulation, simulate_candidate
 from actuator_select.study import Study, Variant
 from actuator_select.units import rad_per_s, rpm
@@ -310,7 +306,7 @@ def _needs(selection: Selection, failing: list[RankedActuator]) -> tuple[tuple[R
 def _variant(selection: Selection, variant: Variant) -> VariantResult:
     rows = selection.result.candidates.rows
     ranked = rank_result(
-        evaluate_candidates(variant.study, from_rows(rows, variant.study.table.assumptions)),
+        evaluate_candidates(variant.study, study_candidates(variant.study, rows)),
         require=selection.required_percent,
         fingerprint=selection.fingerprint,
         where=selection.where,
@@ -322,9 +318,9 @@ def _variant(selection: Selection, variant: Variant) -> VariantResult:
 
 
 def _moves(selection: Selection) -> tuple[tuple[str, Simulation], ...]:
-    best = selection.ranked[0].index
-    single = selection.result.candidates.single(best)
     study: Study = selection.study
+    # A move shows every limit, those that the study does not check among them.
+    single = from_rows([selection.result.candidates.rows[selection.ranked[0].index]], study.table.assumptions)
     return tuple(
         (
             one.title,

@@ -4,21 +4,21 @@ A plausibility rule allows 10 %. Here a printed figure stands for the interval t
 follows from R, kT, I0, kE and U is the interval over all of theirs: the figures agree where the intervals meet.
 """
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from itertools import product
 from math import floor, log10
-from typing import Any
 
-from actuator_select.selection.plausibility_rules import MOTOR_LINE, back_emf_constant
-from actuator_select.units import rpm
+from actuator_select.model.actuation import speed_at_voltage, stall_torque
+from actuator_select.selection.electrical import Row, back_emf_constant
+from actuator_select.selection.plausibility_rules import MOTOR_LINE
+from actuator_select.units import rpm, v_s_per_rad
 
 LEAST_DIGITS = 3  # significant digits that a printed figure has at least: 24 V is 24.0 V
 
 CALCULATED = "manufacturer_calculation"
 """Provenance of sheets that print what the maker computed from R and kT; that they reproduce it says nothing."""
 
-Row = Mapping[str, Any]
 Interval = tuple[float, float]
 
 
@@ -69,7 +69,7 @@ _TORQUE, _BACK_EMF = "rated_torque_nm", "back_emf"
 
 
 def _no_load_speed(voltage: float, resistance: float, no_load_current: float, back_emf: float) -> float:
-    return rpm((voltage - resistance * no_load_current) / back_emf)
+    return rpm(speed_at_voltage(voltage, back_emf, resistance, no_load_current))
 
 
 def _rated_current(torque: float, torque_constant: float, no_load_current: float) -> float:
@@ -84,7 +84,8 @@ def _rated_speed(
     no_load_current: float,
     back_emf: float,
 ) -> float:
-    return rpm((voltage - resistance * _rated_current(torque, torque_constant, no_load_current)) / back_emf)
+    current = _rated_current(torque, torque_constant, no_load_current)
+    return rpm(speed_at_voltage(voltage, back_emf, resistance, current))
 
 
 EQUATIONS = (
@@ -98,7 +99,7 @@ EQUATIONS = (
         quantity="stall_torque_nm",
         unit="N m",
         needs=(_TORQUE_CONSTANT, _VOLTAGE, _RESISTANCE),
-        value=lambda torque_constant, voltage, resistance: torque_constant * voltage / resistance,
+        value=stall_torque,
     ),
     _Equation(
         quantity="rated_speed_rpm",
@@ -114,6 +115,9 @@ EQUATIONS = (
     ),
 )
 """Every figure stands once in its equation, so that the extremes lie at corners of the intervals."""
+
+COLUMNS = tuple(dict.fromkeys(name for one in EQUATIONS for name in (one.quantity, *one.needs) if name != _BACK_EMF))
+"""Of the catalogue: what the equations compare and need, but for the back-EMF constant, which has two columns."""
 
 
 def measured_dc_motors(rows: Sequence[Row]) -> list[Row]:
@@ -152,11 +156,12 @@ def recompute(row: Row) -> list[LineFigure]:
     list of LineFigure
         For every figure that is stated and can be computed.
     """
-    known = {column: float(value) for column, value in row.items() if isinstance(value, int | float)}
+    # Other columns may hold what no rounding can be told of, such as an unlimited peak torque.
+    known = {column: float(row[column]) for column in COLUMNS if row.get(column) is not None}
     printed = {column: rounding_interval(value) for column, value in known.items()}
     back_emf = back_emf_constant(row)
     if back_emf is not None:
-        known[_BACK_EMF], printed[_BACK_EMF] = back_emf, _back_emf_interval(printed)
+        known[_BACK_EMF], printed[_BACK_EMF] = back_emf, _back_emf_interval(row)
     figures = []
     for equation in EQUATIONS:
         if any(name not in known for name in (equation.quantity, *equation.needs)):
@@ -176,11 +181,13 @@ def recompute(row: Row) -> list[LineFigure]:
     return figures
 
 
-def _back_emf_interval(printed: Mapping[str, Interval]) -> Interval:
-    if "back_emf_constant_v_s_per_rad" in printed:
-        return printed["back_emf_constant_v_s_per_rad"]
-    low, high = printed["speed_constant_rpm_per_v"]
-    return (rpm(1.0 / high), rpm(1.0 / low))
+def _back_emf_interval(row: Row) -> Interval:
+    """Interval of the back-EMF constant, as stated or from the speed constant, one of which is known."""
+    stated = row.get("back_emf_constant_v_s_per_rad")
+    if stated is not None:
+        return rounding_interval(float(stated))
+    low, high = rounding_interval(float(row["speed_constant_rpm_per_v"]))
+    return (v_s_per_rad(high), v_s_per_rad(low))
 
 
 def rounding_interval(value: float) -> Interval:

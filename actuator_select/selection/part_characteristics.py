@@ -5,132 +5,15 @@ voltage line of a DC motor is kT/R (U - kE ω), without friction; an AC servo ha
 values and its drive's voltage is not the motor's.
 """
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
-from enum import Enum
-from math import inf, isfinite, isinf, nan
-from typing import Any
+from dataclasses import replace
+from math import inf, isfinite, nan
 
 from actuator_select.errors import InvalidInput
+from actuator_select.model.actuation import speed_at_voltage, stall_torque
 from actuator_select.selection.candidates import from_rows
+from actuator_select.selection.electrical import ALTERNATING_CURRENT, Row, back_emf_constant
+from actuator_select.selection.part_sketch import Characteristics, Duty, Mark, Point, Sketch, Slope
 from actuator_select.units import rad_per_s, rpm
-
-Row = Mapping[str, Any]
-Point = tuple[float, float]
-
-
-class Duty(Enum):
-    """How long a limit holds."""
-
-    CONTINUOUS = "continuous"
-    SHORT = "short"
-    PART = "part"
-    EMERGENCY = "emergency"
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Region:
-    """An area of the plane, speed × load, in which the part may work.
-
-    Attributes
-    ----------
-    name : str
-        What it is.
-    duty : Duty
-        How long.
-    corners : tuple of (float, float)
-        Speed and load, in the units of the characteristics.
-    """
-
-    name: str
-    duty: Duty
-    corners: tuple[Point, ...]
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Slope:
-    """A straight line from a load at standstill to a speed without load.
-
-    Attributes
-    ----------
-    name : str
-        What it is.
-    load, speed : float
-        Its ends.
-    printed : bool
-        Whether an end is a printed figure because a constant is unknown.
-    """
-
-    name: str
-    load: float
-    speed: float
-    printed: bool
-
-    def speed_at(self, load: float) -> float:
-        """Speed that it leaves at a load; not below zero."""
-        return max(0.0, self.speed * (1.0 - load / self.load))
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Limit:
-    """A limit of one quantity.
-
-    Attributes
-    ----------
-    name : str
-        What it is.
-    duty : Duty
-        How long it holds.
-    of_load : bool
-        Whether it limits the load, else the speed.
-    value : float
-        In the unit of that quantity.
-    """
-
-    name: str
-    duty: Duty
-    of_load: bool
-    value: float
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Mark:
-    """A single working point, (speed, load)."""
-
-    name: str
-    speed: float
-    load: float
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Characteristics:
-    """What to draw of a part.
-
-    Attributes
-    ----------
-    title : str
-        Which part.
-    speed_name, speed_unit, load_name, load_unit : str
-        The axes.
-    regions, slopes, limits, marks : tuple
-        What the row states.
-    missing : tuple of str
-        What it does not state.
-    notes : tuple of str
-        What a reader has to know.
-    """
-
-    title: str
-    speed_name: str
-    speed_unit: str
-    load_name: str
-    load_unit: str
-    regions: tuple[Region, ...] = ()
-    slopes: tuple[Slope, ...] = ()
-    limits: tuple[Limit, ...] = ()
-    marks: tuple[Mark, ...] = ()
-    missing: tuple[str, ...] = ()
-    notes: tuple[str, ...] = ()
 
 
 def characteristics(kind: str, row: Row) -> Characteristics:
@@ -165,63 +48,17 @@ def characteristics(kind: str, row: Row) -> Characteristics:
     )
 
 
-@dataclass(slots=True)
-class _Sketch:
-    """Figures of a row and what comes of them; a figure that is asked for and unknown is noted as missing."""
-
-    row: Row
-    missing: list[str] = field(default_factory=list)
-    notes: list[str] = field(default_factory=list)
-    regions: list[Region] = field(default_factory=list)
-    slopes: list[Slope] = field(default_factory=list)
-    limits: list[Limit] = field(default_factory=list)
-    marks: list[Mark] = field(default_factory=list)
-
-    def figure(self, column: str, name: str = "") -> float:
-        """Figure of a column, NaN where unknown; with a name it is missed, or noted as unlimited."""
-        value = self.row.get(column)
-        if value is None:
-            if name:
-                self.missing.append(name)
-            return nan
-        if name and isinf(value):
-            self.notes.append(f"{name}: unlimited")
-        return float(value)
-
-    def limit(self, value: float, name: str, duty: Duty, *, of_load: bool) -> None:
-        """Keep a limit that is a number."""
-        if isfinite(value):
-            self.limits.append(Limit(name=name, duty=duty, of_load=of_load, value=value))
-
-    def region(self, name: str, duty: Duty, *corners: Point) -> None:
-        """Keep a region whose corners are all known and that is not empty."""
-        if all(isfinite(one) for corner in corners for one in corner) and len(set(corners)) > 2:  # noqa: PLR2004
-            self.regions.append(Region(name=name, duty=duty, corners=corners))
-
-    def done(self, **names: str) -> Characteristics:
-        """What was found."""
-        return Characteristics(
-            regions=tuple(self.regions),
-            slopes=tuple(self.slopes),
-            limits=tuple(self.limits),
-            marks=tuple(self.marks),
-            missing=tuple(self.missing),
-            notes=tuple(self.notes),
-            **names,
-        )
-
-
 def _title(row: Row) -> str:
     named = [str(row[name]) for name in ("manufacturer", "part_number") if row.get(name) is not None]
     return f"{row['id']} ({' '.join(named)})" if named else str(row["id"])
 
 
 def _motor(row: Row) -> Characteristics:
-    sketch = _Sketch(row)
+    sketch = Sketch(row)
     torque, speed = sketch.figure("rated_torque_nm", "rated torque"), sketch.figure("rated_speed_rpm", "rated speed")
     peak = sketch.figure("peak_torque_nm", "peak torque")
     fastest = sketch.figure("max_speed_rpm", "maximum speed")
-    if row.get("electrical_convention") == "ac_rms_phase":
+    if row.get("electrical_convention") in ALTERNATING_CURRENT:
         _servo_regions(sketch, torque, speed, peak, fastest)
     else:
         _dc_regions(sketch, torque, speed, peak, fastest)
@@ -238,7 +75,7 @@ def _motor(row: Row) -> Characteristics:
     )
 
 
-def _servo_regions(sketch: _Sketch, torque: float, speed: float, peak: float, fastest: float) -> None:
+def _servo_regions(sketch: Sketch, torque: float, speed: float, peak: float, fastest: float) -> None:
     standstill = sketch.figure("standstill_torque_nm", "standstill torque")
     sketch.limit(standstill, "standstill torque, continuous", Duty.CONTINUOUS, of_load=True)
     sketch.region("for short: up to peak torque and maximum speed", Duty.SHORT, *_box(fastest, peak))
@@ -252,7 +89,7 @@ def _servo_regions(sketch: _Sketch, torque: float, speed: float, peak: float, fa
     sketch.notes.append("AC servo: no voltage line, because the figures are rms phase values behind its drive")
 
 
-def _dc_regions(sketch: _Sketch, torque: float, speed: float, peak: float, fastest: float) -> None:
+def _dc_regions(sketch: Sketch, torque: float, speed: float, peak: float, fastest: float) -> None:
     line = _voltage_line(sketch)
     if line is not None:
         sketch.slopes.append(line)
@@ -272,18 +109,13 @@ def _dc_regions(sketch: _Sketch, torque: float, speed: float, peak: float, faste
         sketch.region(f"{name}: up to {'peak' if duty is Duty.SHORT else 'rated'} torque", duty, *corners, (lower, 0.0))
 
 
-def _voltage_line(sketch: _Sketch) -> Slope | None:
+def _voltage_line(sketch: Sketch) -> Slope | None:
     """From stall torque to no-load speed, kT/R (U - kE ω) = 0; printed ends where constants are unknown."""
     voltage, resistance = sketch.figure("nominal_voltage_v"), sketch.figure("terminal_resistance_ohm")
-    torque_constant, back_emf = (
-        sketch.figure("torque_constant_nm_per_a"),
-        sketch.figure("back_emf_constant_v_s_per_rad"),
-    )
-    stall, no_load = torque_constant * voltage / resistance, rpm(voltage / back_emf)
-    if printed_speed := not isfinite(no_load):
-        no_load = voltage * sketch.figure("speed_constant_rpm_per_v")  # kE = 1 / speed constant
-        printed_speed = not isfinite(no_load)
-    printed_stall = not isfinite(stall)
+    torque_constant, known = sketch.figure("torque_constant_nm_per_a"), back_emf_constant(sketch.row)
+    back_emf = nan if known is None else known
+    stall, no_load = stall_torque(torque_constant, voltage, resistance), rpm(speed_at_voltage(voltage, back_emf))
+    printed_stall, printed_speed = not isfinite(stall), not isfinite(no_load)
     stall = sketch.figure("stall_torque_nm") if printed_stall else stall
     no_load = sketch.figure("no_load_speed_rpm") if printed_speed else no_load
     if isfinite(stall) and isfinite(no_load):
@@ -309,7 +141,7 @@ def _box(speed: float, load: float) -> tuple[Point, ...]:
 
 
 def _gearbox(row: Row) -> Characteristics:
-    sketch = _Sketch(row)
+    sketch = Sketch(row)
     continuous = sketch.figure("max_continuous_torque_nm", "continuous torque")
     short = sketch.figure("max_intermittent_torque_nm", "intermittent torque")
     emergency = sketch.figure("emergency_stop_torque_nm", "emergency stop torque")
@@ -347,21 +179,23 @@ def _actuator(row: Row) -> Characteristics:
     ratio, efficiency, radius = (float(one[0]) for one in (drive.ratio, drive.efficiency, drive.drum_radius))
     motor = _motor(_part(row, "motor"))
     speed_scale, load_scale = rad_per_s(1.0) * radius / ratio, ratio * efficiency / radius
-    names = {"ratio": ratio, "efficiency (no cable force of the motor is drawn)": efficiency, "drum radius": radius}
-    sketch = _Sketch(row)
-    sketch.missing += [name for name, value in names.items() if not isfinite(value)]
+    transmission = {"ratio": ratio, "efficiency": efficiency, "drum radius": radius}
+    without = {"efficiency": " (no cable force of the motor is drawn)"}
+    sketch = Sketch(row)
+    sketch.missing += [f"{name}{without.get(name, '')}" for name, value in transmission.items() if not isfinite(value)]
     sketch.missing += [f"motor: {', '.join(motor.missing)}"] if motor.missing else []
     sketch.notes += [f"motor: {note}" for note in motor.notes]
     _scale(sketch, motor, speed_scale, load_scale)
-    if isfinite(efficiency):
-        sketch.notes.append(f"ratio {ratio:g}, efficiency {efficiency:.3g}, drum radius {radius * 1000.0:g} mm")
+    told = {"ratio": f"{ratio:g}", "efficiency": f"{efficiency:.3g}", "drum radius": f"{radius * 1000.0:g} mm"}
+    known = [f"{name} {told[name]}" for name, value in transmission.items() if isfinite(value)]
+    sketch.notes += [", ".join(known)] if known else []
     if row.get("gearbox_id") is not None:
         gearbox = _gearbox(_part(row, "gearbox"))
         sketch.missing += [f"gearbox: {', '.join(gearbox.missing)}"] if gearbox.missing else []
         for limit in gearbox.limits:
             scale = 1.0 / radius if limit.of_load else speed_scale
             sketch.limit(limit.value * scale, f"gearbox: {limit.name}", Duty.PART, of_load=limit.of_load)
-    winch = _Sketch(_part(row, "winch"))
+    winch = Sketch(_part(row, "winch"))
     sketch.limit(winch.figure("max_tension_n", "tension"), "winch: greatest tension", Duty.PART, of_load=True)
     sketch.limit(
         winch.figure("max_cable_speed_m_per_s", "cable speed"), "winch: greatest speed", Duty.PART, of_load=False
@@ -381,7 +215,7 @@ def _part(row: Row, role: str) -> Row:
     return {name.removeprefix(prefix): value for name, value in row.items() if name.startswith(prefix)}
 
 
-def _scale(sketch: _Sketch, motor: Characteristics, speed_scale: float, load_scale: float) -> None:
+def _scale(sketch: Sketch, motor: Characteristics, speed_scale: float, load_scale: float) -> None:
     """Take over what the motor states and ratio, efficiency and radius carry to the drum."""
     for region in motor.regions:
         corners = [(speed * speed_scale, load * load_scale) for speed, load in region.corners]

@@ -9,9 +9,9 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from math import isfinite
 
-from actuator_select.database import Catalogue
+from actuator_select.selection.electrical import Row
 from actuator_select.selection.explanations import explanation_of
-from actuator_select.selection.plausibility_rules import RULES, SMALLEST_GROUP, Row, Rule
+from actuator_select.selection.plausibility_rules import RULES, SMALLEST_GROUP, Rule
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -51,9 +51,12 @@ class Finding:
     explanation: str | None = None
 
 
+WHOLE_FROM = 9999.5  # figures from here on round to five digits, which .4g writes as a power of ten
+
+
 def figure(value: float) -> str:
     """Number with four significant digits, never as a power of ten where it is large."""
-    return f"{value:.0f}" if abs(value) >= 1e4 else f"{value:.4g}"  # noqa: PLR2004 - where .4g turns to powers
+    return f"{value:.0f}" if abs(value) >= WHOLE_FROM else f"{value:.4g}"
 
 
 def percent(deviation: float) -> str:
@@ -86,25 +89,6 @@ def check_rows(kind: str, rows: Sequence[Row], among: Sequence[Row] | None = Non
         for rule in rules
         if (finding := _apply(rule, kind, row, typical.get(rule.name))) is not None
     ]
-
-
-def check_catalogue(catalogue: Catalogue, kind: str | None = None) -> list[Finding]:
-    """Apply every rule to the whole catalogue or to one kind.
-
-    Parameters
-    ----------
-    catalogue : Catalogue
-        The catalogue.
-    kind : str, optional
-        One kind only.
-
-    Returns
-    -------
-    list of Finding
-        Kind by kind, row by row.
-    """
-    kinds = RULES if kind is None else {kind: RULES.get(kind, ())}
-    return [finding for one in kinds for finding in check_rows(one, catalogue.rows(one))]
 
 
 def _applies(rule: Rule, row: Row) -> bool:

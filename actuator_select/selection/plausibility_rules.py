@@ -9,24 +9,28 @@ from dataclasses import dataclass
 from math import sqrt
 from statistics import median
 from types import MappingProxyType
-from typing import Any
 
-from actuator_select.units import rad_per_s, rpm
+from actuator_select.model.actuation import speed_at_voltage, stall_torque
+from actuator_select.selection.electrical import (
+    ALTERNATING_CURRENT,
+    DIRECT_CURRENT,
+    MOTOR_TERMINALS,
+    UNSTATED,
+    Row,
+    back_emf_constant,
+)
+from actuator_select.units import rad_per_s, rpm, rpm_per_v
 
 TOLERANCE = 0.10  # relative; datasheet rounding and tolerances stay within it
 RATIO_TOLERANCE = 0.05  # relative; makers round the ratio by which they call a gearbox by less
 WELL_BELOW = 0.5  # rated over stall torque; thermal ratings of motors with windings stay below half
 SMALLEST_GROUP = 3  # rows; a median of fewer says nothing about one of them
 
-Row = Mapping[str, Any]
+DC_CONSTANTS = DIRECT_CURRENT | UNSTATED
+"""Conventions of the DC rules."""
 
-DIRECT_CURRENT = frozenset({None, "dc_terminal", "dc_phase_to_phase", "dc_controller"})
-"""Conventions of the DC constants; the papers' motors and users' rows that state none are such."""
-
-MOTOR_LINE = DIRECT_CURRENT - {"dc_controller"}
+MOTOR_LINE = MOTOR_TERMINALS | UNSTATED
 """Conventions under which the rated point stands on the motor's own line; built-in electronics limit it earlier."""
-
-ALTERNATING_CURRENT = frozenset({"ac_rms_phase"})
 
 
 def _apart(deviation: float) -> bool:
@@ -81,14 +85,6 @@ class Rule:
     typical: Callable[[Sequence[Row]], float] = lambda _: 1.0
 
 
-def back_emf_constant(row: Row) -> float | None:
-    """Back-EMF constant of a DC motor, as stated or from its speed constant. [V s/rad]"""
-    stated, speed_constant = row.get("back_emf_constant_v_s_per_rad"), row.get("speed_constant_rpm_per_v")
-    if stated is not None:
-        return float(stated)
-    return None if speed_constant is None else 1.0 / rad_per_s(float(speed_constant))
-
-
 def _known(row: Row, column: str) -> float:
     """Figure, or zero where it is unknown; for terms that only sharpen an expectation."""
     value = row.get(column)
@@ -101,19 +97,24 @@ def _rated_current(row: Row) -> float:
 
 def _no_load_speed(row: Row) -> float | None:
     back_emf = back_emf_constant(row)
-    drop = _known(row, "terminal_resistance_ohm") * _known(row, "no_load_current_a")
-    return None if back_emf is None else rpm((float(row["nominal_voltage_v"]) - drop) / back_emf)
+    if back_emf is None:
+        return None
+    loss = _known(row, "terminal_resistance_ohm"), _known(row, "no_load_current_a")
+    return rpm(speed_at_voltage(float(row["nominal_voltage_v"]), back_emf, *loss))
 
 
 def _loaded_speed(row: Row) -> float | None:
     back_emf, stated = back_emf_constant(row), row.get("rated_current_a")
     current = _rated_current(row) if stated is None else float(stated)
-    voltage = float(row["nominal_voltage_v"]) - float(row["terminal_resistance_ohm"]) * current
-    return None if back_emf is None else rpm(max(0.0, voltage) / back_emf)
+    if back_emf is None:
+        return None
+    speed = speed_at_voltage(float(row["nominal_voltage_v"]), back_emf, float(row["terminal_resistance_ohm"]), current)
+    return rpm(max(0.0, speed))
 
 
 def _stall_torque(row: Row) -> float:
-    return float(row["torque_constant_nm_per_a"] * row["nominal_voltage_v"] / row["terminal_resistance_ohm"])
+    columns = ("torque_constant_nm_per_a", "nominal_voltage_v", "terminal_resistance_ohm")
+    return stall_torque(*(float(row[column]) for column in columns))
 
 
 def _unsaturated_peak_torque(row: Row) -> float | None:
@@ -170,16 +171,16 @@ DIRECT_CURRENT_RULES = (
         needs=("torque_constant_nm_per_a",),
         expected=lambda row: float(row["torque_constant_nm_per_a"]),
         because="the torque constant, which is the same in SI units",
-        conventions=DIRECT_CURRENT,
+        conventions=DC_CONSTANTS,
     ),
     Rule(
         name="speed_constant",
         quantity="speed_constant_rpm_per_v",
         unit="rpm/V",
         needs=("torque_constant_nm_per_a",),
-        expected=lambda row: rpm(1.0 / float(row["torque_constant_nm_per_a"])),
+        expected=lambda row: rpm_per_v(float(row["torque_constant_nm_per_a"])),
         because="1 / torque constant",
-        conventions=DIRECT_CURRENT,
+        conventions=DC_CONSTANTS,
     ),
     Rule(
         name="no_load_speed",
@@ -188,7 +189,7 @@ DIRECT_CURRENT_RULES = (
         needs=("nominal_voltage_v",),
         expected=_no_load_speed,
         because="(voltage - resistance × no-load current) / back-EMF constant",
-        conventions=DIRECT_CURRENT,
+        conventions=DC_CONSTANTS,
     ),
     Rule(
         name="stall_torque",
@@ -197,7 +198,7 @@ DIRECT_CURRENT_RULES = (
         needs=("torque_constant_nm_per_a", "nominal_voltage_v", "terminal_resistance_ohm"),
         expected=_stall_torque,
         because="torque constant × voltage / resistance",
-        conventions=DIRECT_CURRENT,
+        conventions=DC_CONSTANTS,
     ),
     Rule(
         name="stall_current",
@@ -206,7 +207,7 @@ DIRECT_CURRENT_RULES = (
         needs=("nominal_voltage_v", "terminal_resistance_ohm"),
         expected=lambda row: float(row["nominal_voltage_v"] / row["terminal_resistance_ohm"]),
         because="voltage / resistance",
-        conventions=DIRECT_CURRENT,
+        conventions=DC_CONSTANTS,
     ),
     Rule(
         name="rated_torque_below_stall_torque",
@@ -217,7 +218,7 @@ DIRECT_CURRENT_RULES = (
         because="torque constant × voltage / resistance, the stall torque, of which a continuous torque is a fraction; "
         "the stall torque may stand in the wrong column",
         doubtful=lambda deviation: deviation > WELL_BELOW - 1.0,
-        conventions=DIRECT_CURRENT,
+        conventions=DC_CONSTANTS,
     ),
     Rule(
         name="rated_speed",

@@ -4,7 +4,7 @@ from math import isfinite
 from typing import Any
 
 from actuator_select.selection.assumptions import Assumed
-from actuator_select.selection.selection import CheckVerdict, RankedActuator, Selection
+from actuator_select.selection.results import CheckVerdict, RankedActuator, Selection
 from actuator_select.selection.simulation import UNITS, Simulation
 
 

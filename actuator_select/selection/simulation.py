@@ -21,7 +21,7 @@ from actuator_select.model.trajectory import (
     shaft_limits,
     trapezoidal_profile,
 )
-from actuator_select.selection.assumptions import why_no_voltage
+from actuator_select.selection.assumptions import assumption_keys, why_no_voltage
 from actuator_select.selection.candidates import Candidates, find_actuator
 from actuator_select.study import Study
 from actuator_select.study.refusals import line_problems
@@ -88,6 +88,11 @@ class Simulation:
             check: missing_figures(self.candidates.actuators, check, self.study.tension_model)[0] for check in Check
         }
         return {check: figures for check, figures in lacking.items() if figures}
+
+    @property
+    def assumable(self) -> dict[str, str]:
+        """Figures that the study may assume of this actuator where they are unknown, with the key that does so."""
+        return assumption_keys(self.candidates.rows[0])
 
     @property
     def unheld(self) -> tuple[tuple[float, float], ...]:

@@ -1,19 +1,16 @@
 """Results in words, the same on the command line and in reports."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from math import inf, isinf
-
-import numpy as np
 
 from actuator_select.model.actuation import Check
 from actuator_select.model.arrays import FloatArray
-from actuator_select.model.exceedance import Exceedance
 from actuator_select.model.motion import MotionKind, SetShape
 from actuator_select.model.ranking import State, Verdict
 from actuator_select.model.tension import TensionModel
-from actuator_select.selection.assumptions import ASSUMABLE, Assumed
-from actuator_select.selection.selection import CheckVerdict, RankedActuator, Selection
-from actuator_select.selection.simulation import UNITS, Simulation
+from actuator_select.selection.assumptions import Assumed
+from actuator_select.selection.electrical import Row
+from actuator_select.selection.results import CheckVerdict, RankedActuator, Selection
 from actuator_select.study import Study
 
 MOST_NAMED = 3  # actuators of one note that are named, the others counted
@@ -85,9 +82,9 @@ def check_notes(actuators: Sequence[RankedActuator]) -> list[str]:
     for actuator in actuators:
         for check, verdict in actuator.checks.items():
             if verdict.missing:
-                found.setdefault(f"{check.value} not evaluated, {unknown_words(verdict.missing)}", []).append(
-                    actuator.name
-                )
+                found.setdefault(
+                    f"{check.value} not evaluated, {unknown_words(verdict.missing, verdict.assumable)}", []
+                ).append(actuator.name)
             elif verdict.reason:
                 found.setdefault(inapplicable_words(check, verdict.reason), []).append(actuator.name)
     return [f"{some_of(names)}: {text}." for text, names in found.items()]
@@ -98,10 +95,10 @@ def inapplicable_words(check: Check, reason: str) -> str:
     return f"{check.value} not applicable, because its electrical figures are {reason}"
 
 
-def unknown_words(figures: Sequence[str]) -> str:
-    """Figures that a check lacks, and what would help: to state them, or an assumption where one is possible."""
+def unknown_words(figures: Sequence[str], assumable: Mapping[str, str]) -> str:
+    """Figures that a check lacks, and what would help: to state them, or the study's key that `assumable` has."""
     text = f"{', '.join(FIGURE_NAMES[name] for name in figures)} unknown"
-    keys = {name: " or ".join(ASSUMABLE[name]) for name in figures if name in ASSUMABLE}
+    keys = {name: assumable[name] for name in figures if name in assumable}
     if not keys:
         return text
     if len(keys) == len(figures):
@@ -130,6 +127,32 @@ def assumed_words(alike: Sequence[Assumed]) -> str:
     if not spread and first.key.endswith("_of_maximum"):
         spread = f", {values[0]:g} {first.unit}"
     return f"{first.text}{spread}{f' ({first.key})' if first.key else ''}"
+
+
+def unchecked_limits(rows: Sequence[Row]) -> str:
+    """What no check holds an actuator against, even where the catalogue states it.
+
+    Parameters
+    ----------
+    rows : sequence of mapping
+        Actuators of the catalogue with their joined columns; what gearboxes bear is named where one has a gearbox.
+
+    Returns
+    -------
+    str
+        A list for the middle of a sentence.
+    """
+    geared = any(row.get("gearbox_id") is not None for row in rows)
+    gearbox = ["the gearbox's continuous and intermittent torque and input speed"] if geared else []
+    return "; ".join(
+        [
+            "the motor's peak torque, greatest speed and heating",
+            *gearbox,
+            f"the inertia of {'gearbox and drum' if geared else 'the drum'}",
+            "the winch's tension and speed",
+            "the rope's breaking force",
+        ]
+    )
 
 
 def some_of(names: Sequence[str], total: int = 0) -> str:
@@ -333,63 +356,3 @@ def limit_words(actuator: RankedActuator, total: int, attainable: int) -> str:
         f"{begins}: {check.value} ({verdict.poses}/{total} on its own), most at {where} m, "
         f"where the demand is {utilisation_words(verdict.worst_utilisation)} of the limit."
     )
-
-
-def move_words(run: Simulation) -> str:
-    """What was simulated, in a sentence."""
-    start, stop = (", ".join(f"{value:g}" for value in end) for end in (run.move.start, run.move.stop))
-    angles = ", ".join(f"{value:g}" for value in run.move.orientation)
-    profile = run.move.profile
-    return (
-        f"{run.candidates.names[0]} on {run.study.robot.cables} cables: ({start}) to ({stop}) m at (ψ, θ, φ) = "
-        f"({angles}) rad, {profile.distance:.3f} m in {run.duration:.4g} s, up to {profile.speed:.4g} m/s; "
-        f"tensions: {run.study.tension_model.value}{_load_of_move(run.study)}"
-    )
-
-
-def _load_of_move(study: Study) -> str:
-    """Which of several loads a move carries."""
-    return f"; load: {study.loads[0].title}, the first of {len(study.loads)}" if len(study.loads) > 1 else ""
-
-
-def exceedance_words(exceedance: Exceedance) -> str:
-    """One exceedance in a sentence."""
-    over = 100.0 * (exceedance.worst / exceedance.limit - 1.0)
-    unit = UNITS[exceedance.check]
-    return (
-        f"actuator {exceedance.actuator}: {exceedance.check.value} over its limit from {exceedance.start:.3f} s to "
-        f"{exceedance.stop:.3f} s, up to {exceedance.worst:.4g} {unit} of {exceedance.limit:.4g} {unit} ({over:+.1f} %)"
-    )
-
-
-def unheld_words(run: Simulation) -> list[str]:
-    """Where a move cannot be made, whatever drives the robot, a sentence per stretch of time."""
-    move = run.move
-    line = (move.stop - move.start) / move.profile.distance
-    found = []
-    for start, stop in run.unheld:
-        where = move.start + line * float(np.interp(start, *_way(run)))
-        at = ", ".join(f"{value:.3f}" for value in where)
-        found.append(
-            f"the move cannot be made: no tensions and lengths within the cables' bounds hold the platform from "
-            f"{start:.3f} s, at ({at}) m, to {stop:.3f} s; the figures leave that out"
-        )
-    return found
-
-
-def _way(run: Simulation) -> tuple[FloatArray, FloatArray]:
-    """Times [s] and way covered [m], dense enough to name a place."""
-    profile = run.move.profile
-    corners = profile.corners
-    times, way = [], []
-    for phase in range(3):
-        instants = np.linspace(corners[phase], corners[phase + 1], 101)
-        times.append(instants)
-        way.append(profile.motion(instants, phase)[0])
-    return np.concatenate(times), np.concatenate(way)
-
-
-def pushing_words(run: Simulation) -> str:
-    """Warning about cables that would have to push."""
-    cables = ", ".join(str(cable) for cable in run.pushing)
-    return f"the tension model lets cable {cables} push during this move; real cables cannot push."

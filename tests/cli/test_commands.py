@@ -128,6 +128,16 @@ def test_rank_prints_what_the_share_is_of_then_the_table(run: Run) -> None:
     assert "172 of 216" not in out
 
 
+def test_rank_says_in_one_line_which_limits_are_not_checked(run: Run) -> None:
+    _, out, _ = run("rank", "cpr8", "--where", "id = 'filipovic-kevac-2018-1'")
+    (line,) = [line for line in out.splitlines() if line.startswith("Not checked")]
+    assert line == (
+        "Not checked, even where the catalogue states it: the motor's peak torque, greatest speed and heating; the "
+        "gearbox's continuous and intermittent torque and input speed; the inertia of gearbox and drum; the winch's "
+        "tension and speed; the rope's breaking force."
+    )
+
+
 def test_json_stands_alone_on_stdout(run: Run) -> None:
     status, out, _ = run("rank", "cpr8", "--format", "json", "--only-meeting")
     record = json.loads(out, parse_constant=pytest.fail)

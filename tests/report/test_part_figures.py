@@ -14,7 +14,9 @@ from actuator_select.database import Catalogue, open_catalogue
 from actuator_select.errors import InvalidInput
 from actuator_select.report.part_figures import part_figure
 from actuator_select.report.style import image_bytes
-from actuator_select.selection.part_characteristics import Characteristics, Duty, characteristics
+from actuator_select.selection.part_characteristics import characteristics
+from actuator_select.selection.part_sketch import Characteristics, Duty
+from actuator_select.selection.plausibility import figure as four_digits
 
 SERVO = {
     "id": "servo",
@@ -179,6 +181,29 @@ def test_without_an_efficiency_nothing_that_needs_it_is_drawn(catalogue: Catalog
     assert limits(part)["gearbox: continuous torque"] == pytest.approx(40.0 / 0.08)
     assert limits(part)["winch: greatest tension"] == 900.0
     assert "not stated: efficiency (no cable force of the motor is drawn)" in words(part_figure(part))
+
+
+def test_of_ratio_efficiency_and_radius_only_those_that_are_known_are_named(catalogue: Catalogue) -> None:
+    _, row = catalogue.part("Actuator 1")
+    assert "ratio 30, efficiency 0.6, drum radius 80 mm" in characteristics("actuators", row).notes
+    bare = row | {"gearbox.ratio": None, "winch.drum_radius_mm": None}
+    part = characteristics("actuators", bare)
+    assert "efficiency 0.6" in part.notes
+    assert "nan" not in words(part_figure(part))
+    none = characteristics("actuators", bare | {"efficiency_percent": None})
+    assert not [note for note in none.notes if "efficiency" in note]
+
+
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [(9999.4, "9999"), (9999.7, "10000"), (-9999.7, "-10000"), (123456.0, "123456"), (0.21174, "0.2117")],
+)
+def test_four_digits_are_never_a_power_of_ten_where_the_figure_is_large(value: float, text: str) -> None:
+    assert four_digits(value) == text
+
+
+def test_a_figure_that_rounds_to_five_digits_stands_in_the_legend_as_a_whole_number() -> None:
+    assert "peak torque, 10000 N m" in words(part_figure(characteristics("motors", DC | {"peak_torque_nm": 9999.7})))
 
 
 def test_a_winch_says_what_can_be_drawn() -> None:

@@ -9,19 +9,20 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from actuator_select import Catalogue, load_study, open_catalogue, rank, simulate
+from actuator_select import Catalogue, load_study, open_catalogue, rank, render_report, simulate
 from actuator_select.model.actuation import Check
 from actuator_select.selection import selection_record
 from actuator_select.selection.candidates import from_rows
 from actuator_select.selection.dossier import build_dossier
 from actuator_select.selection.records import simulation_record
-from actuator_select.selection.wording import assumption_notes, check_notes, some_of
+from actuator_select.selection.wording import assumption_notes, check_notes, marked, some_of, unknown_words
 from actuator_select.study import Study
 from actuator_select.study.schema import AssumptionsTable
 from tests.selection.parts import DC, SERVO, add_drive
 
 EFFICIENCY = {"efficiency_percent": 60}
 FRICTION = "assumptions.viscous_friction_nm_s_per_rad"
+SHARE = "assumptions.gearbox_efficiency_of_maximum"
 ALL_ASSUMED = {
     "assumptions.rotor_inertia_g_cm2": 500.0,
     FRICTION: 0.0,
@@ -208,7 +209,64 @@ def test_without_the_table_nothing_is_assumed_and_the_key_that_helps_is_named(ow
     assert notes[1] == (
         "dc: acceleration not evaluated, rotor inertia unknown: state it, or assumptions.rotor_inertia_g_cm2."
     )
-    assert all(key in notes[2] for key in ALL_ASSUMED)
+    assert all(key in notes[2] for key in (FRICTION, SHARE, "assumptions.rotor_inertia_g_cm2"))
+
+
+@pytest.mark.parametrize(
+    ("gearbox", "key", "other"),
+    [
+        ({"max_efficiency_percent": 75}, SHARE, "assumptions.gearbox_efficiency_percent"),
+        ({}, "assumptions.gearbox_efficiency_percent", SHARE),
+    ],
+)
+def test_only_the_key_that_works_for_this_gearbox_is_named(
+    own: Catalogue, gearbox: dict[str, object], key: str, other: str
+) -> None:
+    add_drive(own, "dc", DC, gearbox=gearbox)
+    ranked = rank(without_assumptions(), own, where="id = 'dc'").ranked
+    assert ranked[0].checks[Check.TORQUE].missing == ("efficiency",)
+    (note,) = [note for note in check_notes(ranked) if "torque not evaluated" in note]
+    assert note == f"dc: torque not evaluated, efficiency unknown: state it, or {key}."
+    assert not any(other in note for note in check_notes(ranked))
+    run = simulate(without_assumptions(), own, "dc", start=(0.5, 0.5, -0.5), stop=(2.5, 0.5, -0.5))
+    assert key in unknown_words(run.missing[Check.TORQUE], run.assumable)
+    assert other not in unknown_words(run.missing[Check.TORQUE], run.assumable)
+    # The key that is named does help.
+    study = without_assumptions(**{key.replace(".", "__"): 0.9 if key == SHARE else 70.0})
+    assert rank(study, own, where="id = 'dc'").ranked[0].checks[Check.TORQUE].missing == ()
+
+
+@pytest.mark.parametrize(
+    ("checks", "model", "listed"),
+    [
+        (["speed"], "pseudo_inverse", []),
+        (["speed", "torque"], "pseudo_inverse", ["efficiency"]),
+        (["acceleration"], "pseudo_inverse", ["rotor_inertia"]),
+        (["acceleration"], "wrench_feasible", ["rotor_inertia", "efficiency"]),
+        (["voltage"], "pseudo_inverse", ["rotor_inertia", "friction", "efficiency", "direct_current"]),
+    ],
+)
+def test_nothing_is_assumed_that_no_check_of_the_study_needs(
+    own: Catalogue, checks: list[str], model: str, listed: list[str]
+) -> None:
+    add_drive(own, "dc", DC | {"electrical_convention": None, "rotor_inertia_g_cm2": None})
+    study = load_study("cpr8", ALL_ASSUMED | {"checks.apply": checks, "tension.model": model})
+    (dc,) = rank(study, own, where="id = 'dc'").ranked
+    assert [one.figure for one in dc.assumptions] == listed
+    assert all(dc.checks[Check(check)].missing == () for check in checks)
+    assert marked(dc) == ("dc *" if listed else "dc")
+
+
+def test_a_move_in_a_report_keeps_the_assumptions_that_its_own_limits_need_and_lists_them(own: Catalogue) -> None:
+    add_drive(own, "dc", DC | {"rotor_inertia_g_cm2": None}, **EFFICIENCY)
+    study = load_study("cpr8", ALL_ASSUMED | {"checks.apply": ["speed", "torque"], "variant": []})
+    selection = rank(study, own, where="id = 'dc'")
+    assert selection.ranked[0].assumptions == ()
+    (_, run), *_ = build_dossier(selection, own).moves
+    assert run.missing == {}
+    page = " ".join(render_report(selection, own).split())
+    assert "not evaluated" not in page
+    assert f"Assumed: viscous friction 0 N m s/rad ({FRICTION})." in page
 
 
 def test_every_assumption_is_listed_for_the_actuator_and_for_people(own: Catalogue) -> None:

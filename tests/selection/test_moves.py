@@ -1,8 +1,9 @@
 """Moves that no drive could make, and places that no drive could serve, are said to be so."""
 
 from actuator_select import Catalogue, load_study, rank, simulate
+from actuator_select.selection.move_wording import unheld_words
 from actuator_select.selection.records import selection_record, simulation_record
-from actuator_select.selection.wording import summary, unheld_words
+from actuator_select.selection.wording import summary
 from actuator_select.study import parse_study, template_text
 
 HALL = template_text("hall", "suspended-8")

@@ -1,6 +1,7 @@
 """DC motors recomputed from their own constants."""
 
 from collections import defaultdict
+from math import inf
 
 import pytest
 
@@ -82,3 +83,30 @@ def test_constants_without_rounding_errors_agree_and_a_figure_outside_its_roundi
     assert [figure.agrees for figure in recompute(row)] == [True, True, True]
     off = {figure.quantity: figure.agrees for figure in recompute(row | {"stall_torque_nm": 0.61})}
     assert off == {"stall_torque_nm": False, "rated_speed_rpm": True, "rated_current_a": True}
+
+
+def test_an_unlimited_figure_that_no_equation_needs_does_not_stop_the_recomputation() -> None:
+    row = {
+        "id": "m",
+        "nominal_voltage_v": 24.0,
+        "terminal_resistance_ohm": 2.0,
+        "torque_constant_nm_per_a": 0.05,
+        "no_load_current_a": 0.1,
+        "stall_torque_nm": 0.6,
+    }
+    assert recompute(row | {"peak_torque_nm": inf, "max_speed_rpm": inf}) == recompute(row)
+    assert [figure.quantity for figure in recompute(row)] == ["stall_torque_nm"]
+
+
+def test_the_back_emf_constant_of_a_speed_constant_is_as_wide_as_the_speed_constants_rounding() -> None:
+    row = {
+        "id": "m",
+        "nominal_voltage_v": 24.0,
+        "terminal_resistance_ohm": 2.0,
+        "no_load_current_a": 0.0,
+        "speed_constant_rpm_per_v": 250.0,
+        "no_load_speed_rpm": 6000.0,
+    }
+    (figure,) = recompute(row)
+    assert figure.expected == pytest.approx(6000.0)
+    assert figure.expected_range == pytest.approx((23.95 * 249.5, 24.05 * 250.5))
