@@ -138,6 +138,27 @@ class ReadableCatalogue:
         """Document that states figures, by its id; UnknownName where there is none."""
         return self.part(row_id, "sources")[1]
 
+    def uses(self, row_id: str, kind: str) -> list[queries.Use]:
+        """What refers to a row.
+
+        Parameters
+        ----------
+        row_id, kind : str
+            Its id and kind.
+
+        Returns
+        -------
+        list of Use
+            By the users' kind and id; empty where nothing does.
+
+        Raises
+        ------
+        UnknownName
+            If there is no such kind.
+        """
+        with reading(self._engine) as connection:
+            return queries.fetch_uses(connection, find_kind(kind), [row_id])
+
     def count(self, kind: str) -> int:
         """Count the rows of one kind."""
         with reading(self._engine) as connection:

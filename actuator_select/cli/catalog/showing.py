@@ -105,20 +105,17 @@ def _with_parts(catalogue: "Catalogue", kind: str, joined: dict[str, Any]) -> li
 
 def _uses(catalogue: "Catalogue", kind: str, row_id: str) -> list[str]:
     """What refers to a row: the actuators that contain a part, or how many rows cite a source."""
-    from actuator_select.database.kinds import KINDS, ROLES
+    from actuator_select.database.kinds import KINDS
 
-    if kind == "sources":
-        counts = {
-            name: len(catalogue.rows(name, where=f"source_id = '{row_id}'")) for name in KINDS if name != "sources"
-        }
-        return [
-            f"{count} {KINDS[name].singular if count == 1 else name}" for name, count in counts.items() if count
-        ] or ["no row"]
-    for role, part in ROLES.items():
-        if part.name == kind:
-            users = catalogue.rows("actuators", where=f"{role}_id = '{row_id}'")
-            return [f"actuator {user['id']} ({user['name']})" for user in users] or ["no actuator"]
-    return []
+    if not any(field.references == kind for other in KINDS.values() for field in other.references):
+        return []
+    uses = catalogue.uses(row_id, kind)
+    if kind != "sources":
+        return [f"{use.kind.singular} {use.row_id} ({use.name})" for use in uses] or ["no actuator"]
+    counts = {name: sum(use.kind.name == name for use in uses) for name in KINDS}
+    return [f"{count} {KINDS[name].singular if count == 1 else name}" for name, count in counts.items() if count] or [
+        "no row"
+    ]
 
 
 def _emit_row(
