@@ -53,6 +53,17 @@ def locate(
     raise UnknownName(f"there is no {row_id!r} in {where}; {suggestion(row_id, list(known_names), command)}")
 
 
+def locate_ever(connection: sa.Connection, row_id: str, kind: str | None = None) -> list[tuple[Kind, str]]:
+    """Find a row by what somebody calls it, else the rows that once had this name; parameters and errors as above."""
+    found = None if kind is None else find_kind(kind)
+    try:
+        return [locate(connection, row_id, kind, queries.fetch_past_names(connection, found))]
+    except UnknownName:
+        if rows := queries.fetch_past_holders(connection, row_id, found):
+            return rows
+        raise
+
+
 def first_of(names: Sequence[str]) -> str:
     """The first few names, and how many more there are."""
     more = len(names) - _NAMED_ROWS

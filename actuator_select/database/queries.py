@@ -233,9 +233,23 @@ def fetch_changes(connection: sa.Connection, row_id: str, kind: Kind | None = No
     return [dict(row) for row in connection.execute(query).mappings()]
 
 
-def fetch_past_ids(connection: sa.Connection) -> list[str]:
-    """Ids of all rows that something happened to, also of rows that are gone."""
-    return list(connection.scalars(sa.select(CHANGES.c.row_id).distinct().order_by(CHANGES.c.row_id)))
+def fetch_past_names(connection: sa.Connection, kind: Kind | None = None) -> list[str]:
+    """Ids of all rows that something happened to, and names that they gave up, also of rows that are gone."""
+    ids, names = sa.select(CHANGES.c.row_id), sa.select(CHANGES.c.old).where(_is_name(), CHANGES.c.old.is_not(None))
+    if kind is not None:
+        ids, names = (query.where(CHANGES.c.kind == kind.name) for query in (ids, names))
+    return sorted(map(str, connection.scalars(sa.union(ids, names))))
+
+
+def fetch_past_holders(connection: sa.Connection, name: str, kind: Kind | None = None) -> list[tuple[Kind, str]]:
+    """Kinds and ids of the rows that were renamed from or to a name, or removed under it; the first one first."""
+    query = sa.select(CHANGES.c.kind, CHANGES.c.row_id).where(
+        _is_name(), sa.or_(CHANGES.c.old == name, CHANGES.c.new == name)
+    )
+    if kind is not None:
+        query = query.where(CHANGES.c.kind == kind.name)
+    query = query.group_by(CHANGES.c.kind, CHANGES.c.row_id).order_by(sa.func.min(CHANGES.c.number))
+    return [(KINDS[kind_name], row_id) for kind_name, row_id in connection.execute(query)]
 
 
 def fetch_state(connection: sa.Connection, name: str) -> str | None:
@@ -247,6 +261,12 @@ def replace_state(connection: sa.Connection, name: str, value: str) -> None:
     """Leave a remark in the database."""
     connection.execute(STATE.delete().where(STATE.c.name == name))
     connection.execute(STATE.insert(), {"name": name, "value": value})
+
+
+def _is_name() -> sa.ColumnElement[bool]:
+    """Whether a change is of a column whose values name rows."""
+    named = [(kind.name, field.name) for kind in KINDS.values() for field in kind.fields if field.unique]
+    return sa.or_(*(sa.and_(CHANGES.c.kind == kind, CHANGES.c.field == field) for kind, field in named))
 
 
 def _source(kind: Kind) -> sa.FromClause:

@@ -15,7 +15,7 @@ from actuator_select.database.content import catalogue_digest
 from actuator_select.database.export import csv_pieces, json_pieces, make_folder
 from actuator_select.database.history import Change
 from actuator_select.database.kinds import KINDS, find_kind
-from actuator_select.database.naming import locate
+from actuator_select.database.naming import locate, locate_ever
 from actuator_select.database.queries import Row
 
 if TYPE_CHECKING:
@@ -181,14 +181,15 @@ class ReadableCatalogue:
         Parameters
         ----------
         row_id : str
-            Its id; for actuators the name as well.
+            Its id; for actuators the name as well, also one that it no longer has.
         kind : str, optional
             Its kind; every kind by default.
 
         Returns
         -------
         list of Change
-            Oldest first; empty for a row that was there before the history began, and that nothing happened to since.
+            Oldest first, row by row where several had the name; empty for a row that was there before the history
+            began, and that nothing happened to since.
 
         Raises
         ------
@@ -199,8 +200,10 @@ class ReadableCatalogue:
         with reading(self._engine) as connection:
             changes = queries.fetch_changes(connection, row_id, found)
             if not changes:
-                known, own_id = locate(connection, row_id, kind, queries.fetch_past_ids(connection))
-                changes = queries.fetch_changes(connection, own_id, known)
+                rows = locate_ever(connection, row_id, kind)
+                changes = [
+                    change for known, own_id in rows for change in queries.fetch_changes(connection, own_id, known)
+                ]
             return [Change(**change) for change in changes]
 
     def transaction(self) -> AbstractContextManager[sa.Connection]:
