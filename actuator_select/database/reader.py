@@ -3,6 +3,7 @@
 from collections.abc import Iterator, Sequence
 from contextlib import AbstractContextManager
 from pathlib import Path
+from tempfile import SpooledTemporaryFile
 from types import TracebackType
 from typing import TYPE_CHECKING, Any, Self
 
@@ -22,6 +23,9 @@ if TYPE_CHECKING:
     import pandas as pd
 
     from actuator_select.database.fields import Kind
+
+_SPOOLED_BYTES = 16_777_216  # of an export in memory; a longer one goes through a temporary file
+_CHARACTERS_PER_PIECE = 32_768  # of an export that is read back
 
 
 class ReadableCatalogue:
@@ -230,6 +234,8 @@ class ReadableCatalogue:
     def export_pieces(self, file_format: str, kind: str | None = None, where: str = "") -> Iterator[str]:
         """Rows as the text of a file, piece by piece: many rows need not fit into memory.
 
+        All is read before the first piece comes, so that no transaction is open between the pieces.
+
         Parameters
         ----------
         file_format : str
@@ -251,16 +257,15 @@ class ReadableCatalogue:
         ValueError
             If one file cannot hold what is asked for.
         """
-        kinds = _kinds(kind, where)
-        if file_format == "csv" and len(kinds) > 1:
-            raise ValueError("a CSV file holds rows of one kind")
+        kinds = _kinds(kind, where, file_format)
         condition = _condition(kinds[0], where)
-        with reading(self._engine) as connection:
-            streams = [(one, queries.stream_own_rows(connection, one, condition)) for one in kinds]
-            if file_format == "csv":
-                yield from csv_pieces(*streams[0])
-            else:
-                yield from json_pieces(streams, _fingerprint(connection))
+        # Whoever takes the pieces may wait, as a pager does; what is read must not keep others from writing meanwhile.
+        with SpooledTemporaryFile(_SPOOLED_BYTES, "w+", encoding="utf-8", newline="") as spool:
+            with reading(self._engine) as connection:
+                spool.writelines(_pieces(connection, file_format, kinds, condition))
+            spool.seek(0)
+            while piece := spool.read(_CHARACTERS_PER_PIECE):
+                yield piece
 
     def export_file(self, path: str | Path, file_format: str, kind: str | None = None, where: str = "") -> None:
         """Write rows to a file, whole or not at all.
@@ -283,16 +288,15 @@ class ReadableCatalogue:
         UnknownName, InvalidExpression, ValueError
             As for `export_pieces`.
         """
-        kinds = _kinds(kind, where)
+        kinds = _kinds(kind, where, file_format)
         condition = _condition(kinds[0], where)
-        with replacing(Path(path)) as file:
+        with replacing(Path(path)) as file, reading(self._engine) as connection:
             if file_format == "xlsx":
                 from actuator_select.database.workbook_export import write_workbook
 
-                with reading(self._engine) as connection:
-                    write_workbook(file, [(one, queries.stream_own_rows(connection, one, condition)) for one in kinds])
+                write_workbook(file, [(one, queries.stream_own_rows(connection, one, condition)) for one in kinds])
             else:
-                file.writelines(piece.encode() for piece in self.export_pieces(file_format, kind, where))
+                file.writelines(piece.encode() for piece in _pieces(connection, file_format, kinds, condition))
 
     def export_folder(self, path: str | Path) -> list[Path]:
         """Write every kind to a CSV file.
@@ -322,12 +326,23 @@ class ReadableCatalogue:
         return files
 
 
-def _kinds(kind: str | None, where: str) -> list["Kind"]:
+def _kinds(kind: str | None, where: str, file_format: str) -> list["Kind"]:
     if kind is not None:
         return [find_kind(kind)]
     if where:
         raise ValueError("a condition is over the columns of one kind; name it")
+    if file_format == "csv":
+        raise ValueError("a CSV file holds rows of one kind")
     return list(KINDS.values())
+
+
+def _pieces(
+    connection: sa.Connection, file_format: str, kinds: Sequence["Kind"], condition: sa.ColumnElement[bool] | None
+) -> Iterator[str]:
+    streams = [(one, queries.stream_own_rows(connection, one, condition)) for one in kinds]
+    if file_format == "csv":
+        return csv_pieces(*streams[0])
+    return json_pieces(streams, _fingerprint(connection))
 
 
 def _condition(kind: "Kind", where: str) -> sa.ColumnElement[bool] | None:

@@ -333,5 +333,5 @@ def test_a_locked_catalogue_is_told(run: Run, database: Path) -> None:
     for arguments in (("edit", "m", "mass_kg=1"), ("copy", "m", "--as", "n"), ("remove", "m")):
         status, out, err = run(*arguments, "--database", f"sqlite:///{database}?timeout=0.05")
         assert (status, out) == (2, "")
-        assert "another program is writing to it" in err
+        assert "another program is reading or writing it" in err
     writer.close()

@@ -284,7 +284,7 @@ def test_an_edit_that_waits_in_vain_says_so_and_writes_nothing(own: Catalogue, t
     other.execute("BEGIN IMMEDIATE")
     with (
         open_catalogue(f"sqlite:///{tmp_path / 'catalogue.db'}?timeout=0.05") as impatient,
-        pytest.raises(CatalogueUnavailable, match="another program is writing to it"),
+        pytest.raises(CatalogueUnavailable, match="another program is reading or writing it"),
     ):
         impatient.edit("m", {"rated_power_w": 120})
     other.close()
