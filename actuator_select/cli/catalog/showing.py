@@ -8,7 +8,7 @@ import click
 
 from actuator_select.cli import console, options
 from actuator_select.cli.catalog.cells import UNKNOWN, printed
-from actuator_select.cli.catalog.session import finding_record, opened, warn_of
+from actuator_select.cli.catalog.session import finding_record, findings_of, opened, warn_of
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -43,8 +43,6 @@ def show(
         actuator-select catalog show "Actuator 1" --plot drum.png
         actuator-select catalog show filipovic-kevac-2018-motor-4 --format json
     """
-    from actuator_select.selection import check_rows
-
     draw = options.plot_writer(plot)
     with opened(database) as catalogue:
         found, joined = catalogue.part(row_id, kind)
@@ -52,7 +50,7 @@ def show(
         sources = {str(row["source_id"]): None for _, _, row in rows if row.get("source_id") is not None}
         known_sources = {source_id: catalogue.source(source_id) for source_id in sources}
         uses = _uses(catalogue, found, str(joined["id"]))
-    findings = [finding for _, part_kind, row in rows for finding in check_rows(part_kind, [row])]
+        findings = [finding for _, part_kind, row in rows for finding in findings_of(catalogue, part_kind, [row])]
     if plot is not None:
         from actuator_select.report.part_figures import part_figure
         from actuator_select.selection.part_characteristics import characteristics
