@@ -113,7 +113,11 @@ def test_a_rope_out_of_its_group_is_told_of_by_every_command(run: Run) -> None:
     construction = "steel 7x19, grade 2070, galvanised"
     fields = [f"construction={construction}", "diameter_mm=8", "name=An odd rope", f"source_id={SOURCE}"]
     assert warning in run("add", "rope", "id=odd", *fields, "breaking_force_n=900000")[2]
-    for arguments in (("show", "odd"), ("edit", "odd", "diameter_mm=8.1"), ("edit", "odd", "mass_kg_per_m=1", "--dry-run")):
+    for arguments in (
+        ("show", "odd"),
+        ("edit", "odd", "diameter_mm=8.1"),
+        ("edit", "odd", "mass_kg_per_m=1", "--dry-run"),
+    ):
         assert warning in run(*arguments)[2]
     assert "Warning: ropes odder" in run("copy", "odd", "--as", "odder")[2]
     for condition in ("id = 'odd'", f"construction = '{construction}'"):
