@@ -66,7 +66,7 @@ class ReadableCatalogue:
         Parameters
         ----------
         kind : str
-            ``sources``, ``motors``, ``gearboxes``, ``winches``, ``ropes`` or ``actuators``.
+            ``sources``, ``motors``, ``gearboxes``, ``compatibilities``, ``winches``, ``ropes`` or ``actuators``.
         where : str, optional
             Condition over column names, such as ``rated_power_w >= 50 and manufacturer = 'maxon'``.
         sort : str, optional
