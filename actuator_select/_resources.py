@@ -116,23 +116,32 @@ def replacing(path: Path) -> Iterator[BinaryIO]:
     try:
         if path.is_dir():
             raise IsADirectoryError(errno.EISDIR, "it is a folder")
-        special = path.exists() and not path.is_file()
-        target = path if special else path.resolve(strict=path.is_symlink())
-        mode = stat.S_IMODE(target.stat().st_mode) if target.exists() else 0o666 & ~_umask()
-        handle, temporary = (0, "") if special else tempfile.mkstemp(dir=target.parent, prefix=".actuator-select-")
-    except (OSError, RuntimeError) as error:  # RuntimeError: links in a circle
-        raise OutputNotWritable(_cannot_write(path, error)) from error
-    try:
-        with path.open("wb") if special else os.fdopen(handle, "wb") as file:
+        is_special = path.exists() and not path.is_file()
+        with path.open("wb") if is_special else _replacement(path) as file:
             yield file
-        if not special:
-            Path(temporary).chmod(mode)
-            Path(temporary).replace(target)
-    except BaseException as error:
-        if not special:
-            Path(temporary).unlink(missing_ok=True)
-        if isinstance(error, OSError) and not isinstance(error, ActuatorSelectError):
-            raise OutputNotWritable(_cannot_write(path, error)) from error
+    except ActuatorSelectError:
+        raise
+    except OSError as error:
+        raise OutputNotWritable(_cannot_write(path, error)) from error
+
+
+@contextmanager
+def _replacement(path: Path) -> Iterator[BinaryIO]:
+    """Open a temporary file beside a file's target, that takes the target's place when it is whole."""
+    try:
+        target = path.resolve(strict=path.is_symlink())
+    except RuntimeError as error:  # links in a circle
+        raise OSError(errno.ELOOP, os.strerror(errno.ELOOP)) from error
+    mode = stat.S_IMODE(target.stat().st_mode) if target.exists() else 0o666 & ~_umask()
+    handle, name = tempfile.mkstemp(dir=target.parent, prefix=".actuator-select-")
+    temporary = Path(name)
+    try:
+        with os.fdopen(handle, "wb") as file:
+            yield file
+        temporary.chmod(mode)
+        temporary.replace(target)
+    except BaseException:
+        temporary.unlink(missing_ok=True)
         raise
 
 
@@ -142,6 +151,5 @@ def _umask() -> int:
     return mask
 
 
-def _cannot_write(path: Path, error: OSError | RuntimeError) -> str:
-    reason = getattr(error, "strerror", None) or str(error)
-    return f"cannot write {path}: {reason}; choose a file in a folder that exists and may be written"
+def _cannot_write(path: Path, error: OSError) -> str:
+    return f"cannot write {path}: {error.strerror or error}; choose a file in a folder that exists and may be written"

@@ -1,12 +1,13 @@
 """Folders and files of the program and its user."""
 
+import errno
 import os
 import stat
 from pathlib import Path
 
 import pytest
 
-from actuator_select._resources import replace_atomically, shipped_dir, writable_cache_dir
+from actuator_select._resources import replace_atomically, replacing, shipped_dir, writable_cache_dir
 from actuator_select.errors import OutputNotWritable
 
 
@@ -51,10 +52,26 @@ def test_a_failed_write_leaves_the_old_file_and_nothing_else(tmp_path: Path, mon
     assert [file.name for file in tmp_path.iterdir()] == ["report.html"]
 
 
+def test_what_goes_wrong_while_writing_keeps_its_name_and_the_old_file(tmp_path: Path) -> None:
+    path = tmp_path / "report.html"
+    replace_atomically(path, "old")
+
+    def write_half(error: Exception) -> None:
+        with replacing(path) as file:
+            file.write(b"half")
+            raise error
+
+    for error in (RuntimeError("a fault"), OutputNotWritable("another file")):
+        with pytest.raises(type(error), match=f"^{error}$"):
+            write_half(error)
+    assert path.read_text(encoding="utf-8") == "old"
+    assert [file.name for file in tmp_path.iterdir()] == ["report.html"]
+
+
 def test_links_in_a_circle_and_long_names_are_told_or_taken(tmp_path: Path) -> None:
     loop = tmp_path / "loop"
     loop.symlink_to(loop)
-    with pytest.raises(OutputNotWritable, match="cannot write"):
+    with pytest.raises(OutputNotWritable, match=os.strerror(errno.ELOOP)):
         replace_atomically(loop, "new")
     long = tmp_path / ("x" * 250)
     replace_atomically(long, "M\udcfcller")

@@ -53,7 +53,7 @@ def open_catalogue(url: str | Path | None = None) -> "Catalogue":
 
 
 class Catalogue(ReadableCatalogue):
-    """Motors, gearboxes, winches, ropes, actuators and the sources of their figures.
+    """Motors, gearboxes, winches, ropes, actuators, which gearboxes fit which motors, and the sources of all figures.
 
     Unknown figures are None, unlimited ones an infinite float. Units are those of the column names.
 

@@ -3,22 +3,23 @@
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from itertools import groupby
 
 import sqlalchemy as sa
 
 from actuator_select.database import history, queries
 from actuator_select.database.cells import quoted
 from actuator_select.database.comparing import Difference, differences
-from actuator_select.database.fields import Field, Kind
-from actuator_select.database.ingest import Plan, Record, plan_rows, read_record, refuse, write_plan
+from actuator_select.database.fields import Kind
+from actuator_select.database.ingest import Plan, plan_rows, refuse, write_plan
 from actuator_select.database.kinds import KINDS
-from actuator_select.database.naming import locate
+from actuator_select.database.naming import first_of, locate
+from actuator_select.database.records import Record, read_record
 from actuator_select.errors import Problem, RowInUse
 
 Given = Mapping[str, object]
 """Numbers or texts by column name, as somebody wrote them."""
 
-_NAMED_USERS = 3  # rows that use another one and are named in a message
 _NOT_COPIED = {"check_status", "check_notes"}  # they speak of the original's figures
 
 
@@ -75,7 +76,7 @@ def add_row(connection: sa.Connection, kind: Kind, values: Given, source: Given 
     """
     record, plan, problems = _take(connection, kind, values, source, by="catalog add")
     if not problems and not plan.added:
-        problems = [_is_there(record, "the catalogue has this very row already")]
+        problems = [_is_there(str(record.given["id"]), "the catalogue has this very row already")]
     refuse(f"the {kind.singular} was not added", problems)
     write_plan(connection, kind, plan, by="catalog add")
     return str(record.given["id"])
@@ -125,10 +126,12 @@ def copy_row(
     }
     rest = {name: value for name, value in values.items() if name != "id"}
     by = f"catalog copy, copied from {own_id}"
-    record, plan, problems = _take(connection, found, {"id": new_id, **start, **rest}, source, by=by)
-    if new_id in queries.fetch_own_rows(connection, found, [new_id]):
-        problems = [problem for problem in problems if problem.place != record.at("id")]
-        own.append(_is_there(record, "choose another with --as"))
+    is_there = bool(queries.fetch_own_rows(connection, found, [new_id]))
+    if is_there:
+        own.append(_is_there(new_id, "choose another with --as"))
+    # Where the id is taken, that has been said; the rest is then checked as a change of the row that has it.
+    values = {"id": new_id, **start, **rest}
+    _, plan, problems = _take(connection, found, values, source, update=is_there, by=by)
     refuse(f"{found.singular} {own_id!r} was not copied", [*own, *problems])
     write_plan(connection, found, plan, by=by)
     return found, own_id
@@ -137,8 +140,7 @@ def copy_row(
 def remove_row(connection: sa.Connection, row_id: str, kind: str | None = None) -> Removal:
     """Remove one row; parameters and errors as of `Catalogue.remove`."""
     found, own_id = locate(connection, row_id, kind)
-    uses = queries.fetch_uses(connection, found, own_id, _NAMED_USERS)
-    if uses:
+    if uses := queries.fetch_uses(connection, found, [own_id]):
         raise RowInUse(_in_use(found, own_id, uses))
     row = queries.fetch_row(connection, found, own_id)
     history.remove_rows(connection, found, [own_id], by="catalog remove")
@@ -191,28 +193,23 @@ def _only_id(values: Given, own_id: str, remedy: str) -> list[Problem]:
     return [Problem(place="id", value=quoted(values["id"]), expected=f"no other id than {own_id!r}", remedy=remedy)]
 
 
-def _is_there(record: Record, remedy: str) -> Problem:
-    return Problem(
-        place=record.at("id"),
-        value=quoted(record.given.get("id")),
-        expected="an id that the catalogue does not have",
-        remedy=remedy,
-    )
+def _is_there(row_id: str, remedy: str) -> Problem:
+    return Problem(place="id", value=quoted(row_id), expected="an id that the catalogue does not have", remedy=remedy)
 
 
-def _in_use(kind: Kind, row_id: str, uses: Sequence[tuple[Kind, Field, int, list[str]]]) -> str:
+def _in_use(kind: Kind, row_id: str, uses: Sequence[queries.Use]) -> str:
     lines = [f"{kind.singular} {row_id!r} was not removed, because it is in use:"]
-    for other, field, count, first in uses:
-        one = count == 1
+    for (other, field), group in groupby(uses, key=lambda use: (use.kind, use.field)):
+        users = [use.row_id for use in group]
+        one = len(users) == 1
         verb = "name" if field.references == "sources" else "use"
         role = field.name.removesuffix("_id")
-        more = f" and {count - len(first)} more" if count > len(first) else ""
-        users = f"{other.singular} {first[0]} {verb}s" if one else f"{count} rows of {other.name} {verb}"
-        names = "" if one else f": {', '.join(first)}{more}"
-        lines.append(f"  {users} it as {'its' if one else 'their'} {role}{names}")
-    other, field, _, first = uses[0]
+        who = f"{other.singular} {users[0]} {verb}s" if one else f"{len(users)} rows of {other.name} {verb}"
+        names = "" if one else f": {first_of(users)}"
+        lines.append(f"  {who} it as {'its' if one else 'their'} {role}{names}")
+    first = uses[0]
     lines.append(
         f"Let them refer to another {kind.singular} or remove them first, such as: "
-        f"actuator-select catalog edit {first[0]} --kind {other.name} {field.name}=…"
+        f"actuator-select catalog edit {first.row_id} --kind {first.kind.name} {first.field.name}=…"
     )
     return "\n".join(lines)

@@ -11,8 +11,6 @@ from actuator_select.database.fields import Field, Kind
 from actuator_select.database.kinds import KINDS, find_kind
 from actuator_select.database.reader import ReadableCatalogue
 
-_ROWS_AT_A_TIME = 500  # stays below the number of parameters that any database takes
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Difference:
@@ -112,10 +110,8 @@ def compare(here: ReadableCatalogue, there: ReadableCatalogue, kind: str | None 
 
 def _compare_kind(ours: sa.Connection, theirs: sa.Connection, kind: Kind) -> KindComparison:
     here, there = (set(queries.fetch_values(connection, kind, "id")) for connection in (ours, theirs))
-    common = sorted(here & there)
     different: list[DifferentRow] = []
-    for start in range(0, len(common), _ROWS_AT_A_TIME):
-        ids = common[start : start + _ROWS_AT_A_TIME]
+    for ids in queries.batches(here & there):
         our_rows, their_rows = queries.fetch_cells(ours, kind, ids), queries.fetch_cells(theirs, kind, ids)
         different += _different_rows(kind, our_rows - their_rows, their_rows - our_rows)
     return KindComparison(

@@ -20,7 +20,7 @@ BUSY_TIMEOUT = 5.0  # seconds to wait for another program's write to end
 _MEMORY = {"", ":memory:"}
 
 _CAUSES = (
-    ("locked", "another program is writing to it; wait until it is done, or close it"),
+    ("locked", "another program is reading or writing it; wait until it is done, or close it"),
     ("readonly", "it cannot be written; change its permissions, or choose another with --database"),
     ("read-only", "it cannot be written; change its permissions, or choose another with --database"),
     ("not a database", "the file is not an SQLite database; choose another with --database"),

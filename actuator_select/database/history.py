@@ -1,4 +1,9 @@
-"""Writing rows: every addition, change and removal goes through here, and is recorded with its time and cause."""
+"""Writing rows: every addition, change and removal goes through here, and is recorded with its time and cause.
+
+Recorded are the columns that users fill. Whether a row counts as shipped or as the user's follows from its content and
+from what the program ships; where that alone changes, as when an upgrade no longer ships an edited row, nothing is
+recorded.
+"""
 
 from collections.abc import Iterable, Sequence
 from dataclasses import asdict, dataclass
@@ -60,7 +65,7 @@ def add_rows(
 def change_rows(
     connection: sa.Connection, kind: Kind, rows: Sequence[queries.Row], *, by: str, origin: str | None = None
 ) -> None:
-    """Replace the rows that have these ids, and record every column that differs; `by` and `origin` as above."""
+    """Replace the rows that have these ids, and record every filled column that differs; `by` and `origin` as above."""
     before = queries.fetch_own_rows(connection, kind, [str(row["id"]) for row in rows])
     queries.update_rows(connection, kind, _with_origin(connection, kind, rows, origin))
     now = _now()

@@ -15,6 +15,7 @@ from actuator_select.database.fields import Kind
 from actuator_select.database.heading import Heading, read_heading
 from actuator_select.database.ingest import in_order, plan_rows, write_plan
 from actuator_select.database.kinds import KINDS, find_kind
+from actuator_select.database.naming import first_of
 from actuator_select.database.queries import Row
 from actuator_select.database.records import Record, iter_records
 from actuator_select.database.seen import Seen, remembering
@@ -298,12 +299,14 @@ class _Intake:
             self._seen.note(heading.kind, _WANTED, {one: place for one, place in ids.items() if one not in known})
 
     def _remove(self, kind: Kind, ids: Sequence[str]) -> int:
-        users = queries.fetch_referring(self._connection, kind, ids)
+        users: dict[str, list[str]] = {}
+        for use in queries.fetch_uses(self._connection, kind, ids):
+            users.setdefault(use.used_id, []).append(f"{use.kind.singular} {use.row_id!r}")
         self._object(
             Problem(
                 place=f"{kind.singular} {row_id!r} of the catalogue",
                 value="not in the file",
-                expected=f"a row for it, because {_some(by)} {'uses' if len(by) == 1 else 'use'} it",
+                expected=f"a row for it, because {first_of(by)} {'uses' if len(by) == 1 else 'use'} it",
                 remedy="replace or remove these first, or import with --update instead of --replace",
             )
             for row_id, by in users.items()
@@ -314,14 +317,6 @@ class _Intake:
 
     def _object(self, problems: "Sequence[Problem] | Iterator[Problem]") -> None:
         self._problems.update(dict.fromkeys(problems))
-
-
-_NAMED_USERS = 5
-
-
-def _some(names: Sequence[str]) -> str:
-    others = len(names) - _NAMED_USERS
-    return ", ".join(names[:_NAMED_USERS]) + (f" and {others} more" if others > 0 else "")
 
 
 def _with_decimal_comma(problems: list[Problem]) -> list[Problem]:

@@ -7,9 +7,10 @@ import sqlalchemy as sa
 from actuator_select.database import queries
 from actuator_select.database.fields import Kind
 from actuator_select.database.kinds import KINDS, find_kind
-from actuator_select.errors import UnknownName, did_you_mean
+from actuator_select.database.suggestions import suggestion
+from actuator_select.errors import UnknownName
 
-_LISTED_NAMES = 12  # more names than these are not listed in a message
+_NAMED_ROWS = 3  # of more a message tells the number
 
 
 def locate(
@@ -48,11 +49,22 @@ def locate(
         raise UnknownName(f"{row_id!r} is in {among}; state which with --kind")
     where = "the catalogue" if kind is None else kinds[0].name
     known_names = dict.fromkeys([*(name for _, known in names for name in known), *also])
-    raise UnknownName(f"there is no {row_id!r} in {where}; {_hint(row_id, list(known_names))}")
+    command = f"catalog list {'KIND' if kind is None else kinds[0].name}"
+    raise UnknownName(f"there is no {row_id!r} in {where}; {suggestion(row_id, list(known_names), command)}")
 
 
-def _hint(word: str, known: Sequence[str]) -> str:
-    hint = did_you_mean(word, known)
-    if len(known) > _LISTED_NAMES and hint.startswith("known are"):
-        return "`actuator-select catalog list KIND` shows what there is"
-    return hint
+def locate_ever(connection: sa.Connection, row_id: str, kind: str | None = None) -> list[tuple[Kind, str]]:
+    """Find a row by what somebody calls it, else the rows that once had this name; parameters and errors as above."""
+    found = None if kind is None else find_kind(kind)
+    try:
+        return [locate(connection, row_id, kind, queries.fetch_past_names(connection, found))]
+    except UnknownName:
+        if rows := queries.fetch_past_holders(connection, row_id, found):
+            return rows
+        raise
+
+
+def first_of(names: Sequence[str]) -> str:
+    """The first few names, and how many more there are."""
+    more = len(names) - _NAMED_ROWS
+    return ", ".join(names[:_NAMED_ROWS]) + (f" and {more} more" if more > 0 else "")

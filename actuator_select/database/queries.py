@@ -39,6 +39,29 @@ class Column:
     expression: sa.Column[Any]
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Use:
+    """That one row refers to another.
+
+    Attributes
+    ----------
+    used_id : str
+        The row that is used.
+    kind : Kind
+        Of the row that uses it.
+    field : Field
+        Column that refers to it.
+    row_id, name : str
+        The row that uses it: its id, and its name where names are unique, else the id again.
+    """
+
+    used_id: str
+    kind: Kind
+    field: Field
+    row_id: str
+    name: str
+
+
 def columns_of(kind: Kind) -> tuple[Column, ...]:
     """Columns of a kind, own columns first; those of actuators include their parts'."""
     columns = [
@@ -121,20 +144,6 @@ def fetch_holders(connection: sa.Connection, kind: Kind, column: str, values: It
     return {str(value): str(row_id) for value, row_id in found}
 
 
-def fetch_referring(connection: sa.Connection, kind: Kind, ids: Iterable[str]) -> dict[str, list[str]]:
-    """By what rows are used, such as ``actuator 'mine'``, by id; rows that nothing uses are left out."""
-    target = TABLES[kind.name].c.id
-    found: dict[str, list[str]] = {}
-    for batch in batches(ids):
-        for other in KINDS.values():
-            table = TABLES[other.name]
-            for column in (column for column in table.columns if column.references(target)):
-                query = sa.select(column, table.c.id).where(column.in_(batch)).order_by(table.c.id)
-                for used, row_id in connection.execute(query):
-                    found.setdefault(str(used), []).append(f"{other.singular} {row_id!r}")
-    return found
-
-
 def batches(values: Iterable[str]) -> list[list[str]]:
     """Different values, in portions that one statement takes."""
     wanted = sorted(set(values))
@@ -179,32 +188,19 @@ def delete_rows(connection: sa.Connection, kind: Kind, ids: Sequence[str]) -> No
         connection.execute(table.delete().where(table.c.id == sa.bindparam("row_id")), [{"row_id": i} for i in ids])
 
 
-def fetch_referenced(connection: sa.Connection, kind: Kind) -> set[str]:
-    """Ids of a kind that other rows refer to."""
-    table = TABLES[kind.name]
-    referring = [
-        sa.select(column) for other in TABLES.values() for column in other.columns if column.references(table.c.id)
-    ]
-    if not referring:
-        return set()
-    return {str(value) for value in connection.scalars(sa.union(*referring)) if value is not None}
-
-
-def fetch_uses(
-    connection: sa.Connection, kind: Kind, row_id: str, most: int
-) -> list[tuple[Kind, Field, int, list[str]]]:
-    """Which rows refer to a row: their kind, the column, how many, and the first `most` ids."""
-    referring = [(other, field) for other in KINDS.values() for field in other.references]
+def fetch_uses(connection: sa.Connection, kind: Kind, ids: Iterable[str]) -> list[Use]:
+    """By what those rows of a kind are used that have these ids, by the users' kind and id."""
+    referring = [(user, field) for user in KINDS.values() for field in user.references if field.references == kind.name]
     uses = []
-    for other, field in referring:
-        if field.references != kind.name:
-            continue
-        table = TABLES[other.name]
-        refers = table.c[field.name] == row_id
-        count = int(connection.scalar(sa.select(sa.func.count()).select_from(table).where(refers)) or 0)
-        if count:
-            first = sa.select(table.c.id).where(refers).order_by(table.c.id).limit(most)
-            uses.append((other, field, count, list(connection.scalars(first))))
+    for batch in batches(ids):
+        for user, field in referring:
+            table = TABLES[user.name]
+            name = next((table.c[one.name] for one in user.fields if one.unique), table.c.id)
+            query = sa.select(table.c[field.name], table.c.id, name.label("name"))
+            found = connection.execute(query.where(table.c[field.name].in_(batch)).order_by(table.c.id))
+            uses += [
+                Use(used_id=used, kind=user, field=field, row_id=row_id, name=name) for used, row_id, name in found
+            ]
     return uses
 
 
@@ -237,9 +233,23 @@ def fetch_changes(connection: sa.Connection, row_id: str, kind: Kind | None = No
     return [dict(row) for row in connection.execute(query).mappings()]
 
 
-def fetch_past_ids(connection: sa.Connection) -> list[str]:
-    """Ids of all rows that something happened to, also of rows that are gone."""
-    return list(connection.scalars(sa.select(CHANGES.c.row_id).distinct().order_by(CHANGES.c.row_id)))
+def fetch_past_names(connection: sa.Connection, kind: Kind | None = None) -> list[str]:
+    """Ids of all rows that something happened to, and names that they gave up, also of rows that are gone."""
+    ids, names = sa.select(CHANGES.c.row_id), sa.select(CHANGES.c.old).where(_is_name(), CHANGES.c.old.is_not(None))
+    if kind is not None:
+        ids, names = (query.where(CHANGES.c.kind == kind.name) for query in (ids, names))
+    return sorted(map(str, connection.scalars(sa.union(ids, names))))
+
+
+def fetch_past_holders(connection: sa.Connection, name: str, kind: Kind | None = None) -> list[tuple[Kind, str]]:
+    """Kinds and ids of the rows that were renamed from or to a name, or removed under it; the first one first."""
+    query = sa.select(CHANGES.c.kind, CHANGES.c.row_id).where(
+        _is_name(), sa.or_(CHANGES.c.old == name, CHANGES.c.new == name)
+    )
+    if kind is not None:
+        query = query.where(CHANGES.c.kind == kind.name)
+    query = query.group_by(CHANGES.c.kind, CHANGES.c.row_id).order_by(sa.func.min(CHANGES.c.number))
+    return [(KINDS[kind_name], row_id) for kind_name, row_id in connection.execute(query)]
 
 
 def fetch_state(connection: sa.Connection, name: str) -> str | None:
@@ -251,6 +261,12 @@ def replace_state(connection: sa.Connection, name: str, value: str) -> None:
     """Leave a remark in the database."""
     connection.execute(STATE.delete().where(STATE.c.name == name))
     connection.execute(STATE.insert(), {"name": name, "value": value})
+
+
+def _is_name() -> sa.ColumnElement[bool]:
+    """Whether a change is of a column whose values name rows."""
+    named = [(kind.name, field.name) for kind in KINDS.values() for field in kind.fields if field.unique]
+    return sa.or_(*(sa.and_(CHANGES.c.kind == kind, CHANGES.c.field == field) for kind, field in named))
 
 
 def _source(kind: Kind) -> sa.FromClause:

@@ -3,6 +3,7 @@
 from collections.abc import Iterator, Sequence
 from contextlib import AbstractContextManager
 from pathlib import Path
+from tempfile import SpooledTemporaryFile
 from types import TracebackType
 from typing import TYPE_CHECKING, Any, Self
 
@@ -15,13 +16,16 @@ from actuator_select.database.content import catalogue_digest
 from actuator_select.database.export import csv_pieces, json_pieces, make_folder
 from actuator_select.database.history import Change
 from actuator_select.database.kinds import KINDS, find_kind
-from actuator_select.database.naming import locate
+from actuator_select.database.naming import locate, locate_ever
 from actuator_select.database.queries import Row
 
 if TYPE_CHECKING:
     import pandas as pd
 
     from actuator_select.database.fields import Kind
+
+_SPOOLED_BYTES = 16_777_216  # of an export in memory; a longer one goes through a temporary file
+_CHARACTERS_PER_PIECE = 32_768  # of an export that is read back
 
 
 class ReadableCatalogue:
@@ -62,7 +66,7 @@ class ReadableCatalogue:
         Parameters
         ----------
         kind : str
-            ``sources``, ``motors``, ``gearboxes``, ``winches``, ``ropes`` or ``actuators``.
+            ``sources``, ``motors``, ``gearboxes``, ``compatibilities``, ``winches``, ``ropes`` or ``actuators``.
         where : str, optional
             Condition over column names, such as ``rated_power_w >= 50 and manufacturer = 'maxon'``.
         sort : str, optional
@@ -138,6 +142,27 @@ class ReadableCatalogue:
         """Document that states figures, by its id; UnknownName where there is none."""
         return self.part(row_id, "sources")[1]
 
+    def uses(self, row_id: str, kind: str) -> list[queries.Use]:
+        """What refers to a row.
+
+        Parameters
+        ----------
+        row_id, kind : str
+            Its id and kind.
+
+        Returns
+        -------
+        list of Use
+            By the users' kind and id; empty where nothing does.
+
+        Raises
+        ------
+        UnknownName
+            If there is no such kind.
+        """
+        with reading(self._engine) as connection:
+            return queries.fetch_uses(connection, find_kind(kind), [row_id])
+
     def count(self, kind: str) -> int:
         """Count the rows of one kind."""
         with reading(self._engine) as connection:
@@ -160,14 +185,15 @@ class ReadableCatalogue:
         Parameters
         ----------
         row_id : str
-            Its id; for actuators the name as well.
+            Its id; for actuators the name as well, also one that it no longer has.
         kind : str, optional
             Its kind; every kind by default.
 
         Returns
         -------
         list of Change
-            Oldest first; empty for a row that was there before the history began, and that nothing happened to since.
+            Oldest first, row by row where several had the name; empty for a row that was there before the history
+            began, and that nothing happened to since.
 
         Raises
         ------
@@ -178,8 +204,10 @@ class ReadableCatalogue:
         with reading(self._engine) as connection:
             changes = queries.fetch_changes(connection, row_id, found)
             if not changes:
-                known, own_id = locate(connection, row_id, kind, queries.fetch_past_ids(connection))
-                changes = queries.fetch_changes(connection, own_id, known)
+                rows = locate_ever(connection, row_id, kind)
+                changes = [
+                    change for known, own_id in rows for change in queries.fetch_changes(connection, own_id, known)
+                ]
             return [Change(**change) for change in changes]
 
     def transaction(self) -> AbstractContextManager[sa.Connection]:
@@ -206,6 +234,8 @@ class ReadableCatalogue:
     def export_pieces(self, file_format: str, kind: str | None = None, where: str = "") -> Iterator[str]:
         """Rows as the text of a file, piece by piece: many rows need not fit into memory.
 
+        All is read before the first piece comes, so that no transaction is open between the pieces.
+
         Parameters
         ----------
         file_format : str
@@ -227,16 +257,15 @@ class ReadableCatalogue:
         ValueError
             If one file cannot hold what is asked for.
         """
-        kinds = _kinds(kind, where)
-        if file_format == "csv" and len(kinds) > 1:
-            raise ValueError("a CSV file holds rows of one kind")
+        kinds = _kinds(kind, where, file_format)
         condition = _condition(kinds[0], where)
-        with reading(self._engine) as connection:
-            streams = [(one, queries.stream_own_rows(connection, one, condition)) for one in kinds]
-            if file_format == "csv":
-                yield from csv_pieces(*streams[0])
-            else:
-                yield from json_pieces(streams, _fingerprint(connection))
+        # Whoever takes the pieces may wait, as a pager does; what is read must not keep others from writing meanwhile.
+        with SpooledTemporaryFile(_SPOOLED_BYTES, "w+", encoding="utf-8", newline="") as spool:
+            with reading(self._engine) as connection:
+                spool.writelines(_pieces(connection, file_format, kinds, condition))
+            spool.seek(0)
+            while piece := spool.read(_CHARACTERS_PER_PIECE):
+                yield piece
 
     def export_file(self, path: str | Path, file_format: str, kind: str | None = None, where: str = "") -> None:
         """Write rows to a file, whole or not at all.
@@ -259,16 +288,15 @@ class ReadableCatalogue:
         UnknownName, InvalidExpression, ValueError
             As for `export_pieces`.
         """
-        kinds = _kinds(kind, where)
+        kinds = _kinds(kind, where, file_format)
         condition = _condition(kinds[0], where)
-        with replacing(Path(path)) as file:
+        with replacing(Path(path)) as file, reading(self._engine) as connection:
             if file_format == "xlsx":
                 from actuator_select.database.workbook_export import write_workbook
 
-                with reading(self._engine) as connection:
-                    write_workbook(file, [(one, queries.stream_own_rows(connection, one, condition)) for one in kinds])
+                write_workbook(file, [(one, queries.stream_own_rows(connection, one, condition)) for one in kinds])
             else:
-                file.writelines(piece.encode() for piece in self.export_pieces(file_format, kind, where))
+                file.writelines(piece.encode() for piece in _pieces(connection, file_format, kinds, condition))
 
     def export_folder(self, path: str | Path) -> list[Path]:
         """Write every kind to a CSV file.
@@ -298,12 +326,23 @@ class ReadableCatalogue:
         return files
 
 
-def _kinds(kind: str | None, where: str) -> list["Kind"]:
+def _kinds(kind: str | None, where: str, file_format: str) -> list["Kind"]:
     if kind is not None:
         return [find_kind(kind)]
     if where:
         raise ValueError("a condition is over the columns of one kind; name it")
+    if file_format == "csv":
+        raise ValueError("a CSV file holds rows of one kind")
     return list(KINDS.values())
+
+
+def _pieces(
+    connection: sa.Connection, file_format: str, kinds: Sequence["Kind"], condition: sa.ColumnElement[bool] | None
+) -> Iterator[str]:
+    streams = [(one, queries.stream_own_rows(connection, one, condition)) for one in kinds]
+    if file_format == "csv":
+        return csv_pieces(*streams[0])
+    return json_pieces(streams, _fingerprint(connection))
 
 
 def _condition(kind: "Kind", where: str) -> sa.ColumnElement[bool] | None:

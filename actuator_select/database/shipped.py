@@ -172,7 +172,7 @@ def _take_out(
     if not gone:
         return
     present = queries.fetch_own_rows(connection, kind, gone)
-    referenced = queries.fetch_referenced(connection, kind)
+    referenced = {use.used_id for use in queries.fetch_uses(connection, kind, gone)}
     removed, orphaned = [], []
     for row_id in gone:
         name, before = f"{kind.singular} {row_id}", present.get(row_id)

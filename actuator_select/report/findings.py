@@ -23,7 +23,7 @@ RECOMPUTED = (
 NOT_EXPLAINED = "**Not explained.**"
 
 
-def render_findings(check: CatalogueCheck, dc_motors_text: str) -> str:
+def render_findings(check: CatalogueCheck, dc_motors_text: str, command: str = COMMAND) -> str:
     """Write what the check found, rule by rule, and the DC motors recomputed.
 
     Parameters
@@ -32,6 +32,8 @@ def render_findings(check: CatalogueCheck, dc_motors_text: str) -> str:
         The check.
     dc_motors_text : str
         What is known about the deviations of the DC motors.
+    command : str
+        What makes the document; the shipped one's by default.
 
     Returns
     -------
@@ -41,7 +43,7 @@ def render_findings(check: CatalogueCheck, dc_motors_text: str) -> str:
     lines = [
         "# Findings of the plausibility check",
         "",
-        f"Made by `{COMMAND}`; the explanations stand in `catalog/findings.toml`.",
+        f"Made by `{command}`; the explanations stand in `catalog/findings.toml`.",
         "",
         f"Checked: {check.checked_text}.",
         f"Findings: {len(check.findings)}, of which {len(check.unexplained)} are not explained.",

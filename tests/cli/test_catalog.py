@@ -12,6 +12,7 @@ from actuator_select.cli import main
 from actuator_select.cli.catalog import command
 from actuator_select.database import Catalogue, open_catalogue
 from actuator_select.database.kinds import KINDS
+from actuator_select.database.reader import ReadableCatalogue
 from actuator_select.database.shipped import read_shipped
 
 SOURCE = "filipovic-kevac-2018"
@@ -344,3 +345,11 @@ def test_opening_a_new_database_is_told_on_stderr(run: Run, tmp_path: Path) -> N
     assert status == 0
     assert len(json.loads(out)["rows"]) == len(read_shipped()["actuators"])
     assert err == f"Made the catalogue {tmp_path / 'new.db'}.\n"
+
+
+def test_help_and_docstrings_name_every_kind(run: Run) -> None:
+    helps = {name: run(*name.split(), "--help")[1] for name in ("list", "add")}
+    texts = [ReadableCatalogue.rows.__doc__ or "", helps["list"]]
+    assert [kind for kind in KINDS for text in texts if kind not in text] == []
+    assert [kind.singular for kind in KINDS.values() if kind.singular not in helps["add"]] == []
+    assert [kind for kind in KINDS if kind not in " ".join(run("--help")[1].split())] == []

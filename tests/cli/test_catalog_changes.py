@@ -59,8 +59,13 @@ def catalogue(database: Path) -> Iterator[Catalogue]:
         yield opened
 
 
-def answer(monkeypatch: pytest.MonkeyPatch, answers: dict[str, list[str]]) -> dict[str, str]:
-    """Answer questions by their field, others by Enter; the defaults that stood in brackets are collected."""
+def answer(
+    monkeypatch: pytest.MonkeyPatch, answers: dict[str, list[str]], *, again: dict[str, str] | None = None
+) -> dict[str, str]:
+    """Answer questions by their field, others by Enter; the defaults that stood in brackets are collected.
+
+    Those of a field that was asked before go to `again`.
+    """
     asked: dict[str, str] = {}
     waiting = {name: iter(texts) for name, texts in answers.items()}
 
@@ -68,6 +73,8 @@ def answer(monkeypatch: pytest.MonkeyPatch, answers: dict[str, list[str]]) -> di
         assert err
         assert show_default == bool(default)
         field = question.split(" – ", maxsplit=1)[0]
+        if again is not None and field in asked:
+            again[field] = default
         asked.setdefault(field, default)
         return next(waiting.get(field, iter([])), default)
 
@@ -155,6 +162,24 @@ def test_edit_asks_again_for_what_the_whole_row_shows_to_be_wrong(
     status, _, err = run("edit", "g")
     assert status == 0
     assert "max_intermittent_torque_nm: '3.0', expected at least max_continuous_torque_nm = 5 [N m]" in err
+    row = catalogue.part("g")[1]
+    assert (row["max_intermittent_torque_nm"], row["source_id"]) == (12.0, "acme-2024")
+
+
+def test_a_question_that_is_repeated_offers_the_last_answer(
+    run: Run, catalogue: Catalogue, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    gearbox = {"id": "g", "max_continuous_torque_nm": 5, "max_intermittent_torque_nm": 6, "source_id": SOURCE}
+    catalogue.add("gearboxes", gearbox)
+    again: dict[str, str] = {}
+    answers = {"max_intermittent_torque_nm": ["3", "12"], "source_id": ["new"], "document": ["Acme"], "date": ["2024"]}
+    # A source without an address is refused as a whole; then only the address is new.
+    answer(monkeypatch, answers | {"url": ["", "https://acme.example"], "page": ["", ""]}, again=again)
+    status, _, err = run("edit", "g")
+    assert status == 0
+    assert "Once more; Enter keeps what stands in brackets, - empties it." in err
+    assert again["max_intermittent_torque_nm"] == "3"
+    assert (again["source_id"], again["document"], again["date"]) == ("new", "Acme", "2024")
     row = catalogue.part("g")[1]
     assert (row["max_intermittent_torque_nm"], row["source_id"]) == (12.0, "acme-2024")
 
@@ -333,5 +358,5 @@ def test_a_locked_catalogue_is_told(run: Run, database: Path) -> None:
     for arguments in (("edit", "m", "mass_kg=1"), ("copy", "m", "--as", "n"), ("remove", "m")):
         status, out, err = run(*arguments, "--database", f"sqlite:///{database}?timeout=0.05")
         assert (status, out) == (2, "")
-        assert "another program is writing to it" in err
+        assert "another program is reading or writing it" in err
     writer.close()

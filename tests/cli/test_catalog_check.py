@@ -1,6 +1,7 @@
 """``actuator-select catalog check``: what it prints of findings and of what explains them."""
 
 import json
+import shlex
 from collections.abc import Callable
 from pathlib import Path
 
@@ -18,6 +19,20 @@ def test_the_shipped_document_is_what_the_command_in_its_head_writes(run: Run) -
     assert status == 0
     assert out == document
     assert f"`actuator-select {' '.join(MARKDOWN)} > catalog/FINDINGS.md`" in document
+
+
+@pytest.mark.parametrize("arguments", [("motors",), ("--database", "my parts.db"), ("actuators", "--database", "m.db")])
+def test_a_document_about_something_else_names_the_command_that_wrote_it(
+    run: Run, monkeypatch: pytest.MonkeyPatch, arguments: tuple[str, ...]
+) -> None:
+    monkeypatch.delenv("ACTUATOR_SELECT_DATABASE")
+    monkeypatch.setattr("actuator_select.database.connection.user_data_dir", Path.cwd)
+    _, out, _ = run("catalog", "check", *arguments, "--format", "markdown")
+    command = out.partition("Made by `")[2].partition("`")[0]
+    first, *words = shlex.split(command)
+    assert (first, ">" in words) == ("actuator-select", False)
+    assert set(words) == {"catalog", "check", "--format", "markdown", *arguments}
+    assert run(*words)[1] == out
 
 
 def test_a_finding_refers_to_its_explanation_and_the_end_counts_them(run: Run) -> None:

@@ -93,15 +93,40 @@ def test_a_pipe_gets_every_text_whole_on_one_line(run: Run) -> None:
     assert "…" in run("list", "ropes", width=120)[1]
 
 
+def marked(out: str) -> set[str]:
+    """First words of the lines of a list that end in the mark."""
+    return {line.split()[0] for line in out.splitlines() if line.rstrip().endswith("!")}
+
+
 def test_doubtful_rows_are_marked_and_the_mark_is_explained(run: Run) -> None:
     run("add", "motor", *SERVO)
     _, out, _ = run("list", "motors", "--where", TABLE_1)
-    marked = {line.split()[0] for line in out.splitlines() if line.rstrip().endswith("!")}
-    assert marked == {*(f"filipovic-kevac-2018-motor-{number}" for number in (2, 3, 4, 5)), SERVO[0][3:]}
+    assert marked(out) == {*(f"filipovic-kevac-2018-motor-{number}" for number in (2, 3, 4, 5)), SERVO[0][3:]}
     assert "`actuator-select catalog show ID` says why" in out
     _, out, _ = run("list", "actuators", "--where", "source_location = 'Table 1'")
     assert [line.split()[0][-1] for line in out.splitlines() if line.rstrip().endswith("!")] == ["2", "3", "4", "5"]
     assert "!" not in run("list", "winches")[1]
+
+
+def test_a_rope_out_of_its_group_is_told_of_by_every_command(run: Run) -> None:
+    warning = "Warning: ropes odd (An odd rope): breaking_force_n is 900000 N"
+    construction = "steel 7x19, grade 2070, galvanised"
+    fields = [f"construction={construction}", "diameter_mm=8", "name=An odd rope", f"source_id={SOURCE}"]
+    assert warning in run("add", "rope", "id=odd", *fields, "breaking_force_n=900000")[2]
+    for arguments in (
+        ("show", "odd"),
+        ("edit", "odd", "diameter_mm=8.1"),
+        ("edit", "odd", "mass_kg_per_m=1", "--dry-run"),
+    ):
+        assert warning in run(*arguments)[2]
+    assert "Warning: ropes odder" in run("copy", "odd", "--as", "odder")[2]
+    for condition in ("id = 'odd'", f"construction = '{construction}'"):
+        assert "odd" in marked(run("list", "ropes", "--where", condition)[1])
+
+
+def test_add_names_the_row_that_it_warns_of_as_other_commands_do(run: Run) -> None:
+    fields = ["id=x", "part_number=No. 7", "rated_power_w=1", "rated_speed_rpm=3000", "rated_torque_nm=9"]
+    assert "Warning: motors x (No. 7): rated_power_w is 1 W" in run("add", "motor", *fields, f"source_id={SOURCE}")[2]
 
 
 def test_a_cut_list_says_how_to_see_more(run: Run) -> None:

@@ -284,7 +284,7 @@ def test_an_edit_that_waits_in_vain_says_so_and_writes_nothing(own: Catalogue, t
     other.execute("BEGIN IMMEDIATE")
     with (
         open_catalogue(f"sqlite:///{tmp_path / 'catalogue.db'}?timeout=0.05") as impatient,
-        pytest.raises(CatalogueUnavailable, match="another program is writing to it"),
+        pytest.raises(CatalogueUnavailable, match="another program is reading or writing it"),
     ):
         impatient.edit("m", {"rated_power_w": 120})
     other.close()
@@ -326,3 +326,31 @@ def test_a_change_that_is_interrupted_leaves_nothing(own: Catalogue, monkeypatch
         with pytest.raises(KeyboardInterrupt):
             change()
     assert (own.fingerprint(), own.history("m")) == (before, history)
+
+
+def test_uses_tell_who_refers_to_a_row_by_which_column(own: Catalogue) -> None:
+    own.copy("Actuator 1", "mine", {"name": "My drive"})
+    uses = own.uses(MOTOR, "motor")
+    assert [(use.used_id, use.kind.name, use.field.name, use.row_id, use.name) for use in uses] == [
+        (MOTOR, "actuators", "motor_id", ACTUATOR, "Actuator 1"),
+        (MOTOR, "actuators", "motor_id", "mine", "My drive"),
+    ]
+    assert {use.kind.name for use in own.uses(SOURCE, "sources")} == {"motors", "gearboxes", "winches", "actuators"}
+    assert own.uses("mine", "actuators") == []
+
+
+def test_a_name_with_no_near_one_is_answered_with_the_command_that_lists_the_kind(own: Catalogue) -> None:
+    for number in range(8):
+        own.copy("m", f"m{number}")
+    with pytest.raises(UnknownName, match="`actuator-select catalog list motors` lists what there is"):
+        own.part("zzzzzzzz", "motor")
+    with pytest.raises(UnknownName, match="`actuator-select catalog list KIND` lists what there is"):
+        own.part("zzzzzzzz")
+
+
+def test_a_copy_to_an_id_that_is_taken_names_the_other_faults_too(own: Catalogue) -> None:
+    problems = refusals(lambda: own.copy("m", MOTOR, {"mass_kg": -1}, source={"document": "D"}))
+    assert any("choose another with --as" in problem for problem in problems)
+    assert any(problem.startswith("mass_kg: '-1'") for problem in problems)
+    assert any(problem.startswith("source.") for problem in problems)
+    assert not any("--update" in problem for problem in problems)

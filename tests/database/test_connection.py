@@ -142,7 +142,7 @@ def test_a_locked_database_says_so(database: Path, begin: str) -> None:
     other = sqlite3.connect(database, isolation_level=None)
     other.execute(begin)
     try:
-        with pytest.raises(CatalogueUnavailable, match="another program is writing to it"):
+        with pytest.raises(CatalogueUnavailable, match="another program is reading or writing it"):
             open_and_add(f"sqlite:///{database}?timeout=0.05")
     finally:
         other.close()

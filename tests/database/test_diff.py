@@ -189,7 +189,7 @@ def test_a_file_that_another_program_writes_is_not_waited_for_for_ever(
     monkeypatch.setattr(snapshot, "BUSY_TIMEOUT", 0.05)
     writer = sqlite3.connect(other_file, isolation_level=None)
     writer.execute("BEGIN EXCLUSIVE")
-    with pytest.raises(CatalogueUnavailable, match="another program is writing to it"):
+    with pytest.raises(CatalogueUnavailable, match="another program is reading or writing it"):
         open_for_reading(other_file)
     writer.close()
 

@@ -253,3 +253,15 @@ def test_what_no_file_can_be_made_of_is_refused_before_a_file_is_touched(catalog
     with pytest.raises(OutputNotWritable, match="cannot write"):
         catalogue.export_file(tmp_path / "no" / "f.xlsx", "xlsx")
     assert [path.name for path in tmp_path.iterdir() if path.name.startswith((".", "f"))] == []
+
+
+@pytest.mark.parametrize(("file_format", "kind"), [("csv", "motors"), ("json", None)])
+def test_an_export_that_waits_for_its_reader_keeps_nobody_from_writing(
+    catalogue: Catalogue, tmp_path: Path, file_format: str, kind: str | None
+) -> None:
+    before = "".join(catalogue.export_pieces(file_format, kind))
+    pieces = catalogue.export_pieces(file_format, kind)
+    first = next(pieces)
+    with open_catalogue(f"sqlite:///{tmp_path / 'catalogue.db'}?timeout=0.05") as other:
+        other.edit("filipovic-kevac-2018-motor-1", {"mass_kg": 3})
+    assert first + "".join(pieces) == before

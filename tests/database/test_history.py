@@ -70,8 +70,36 @@ def test_an_id_that_never_was_is_suggested_also_from_removed_rows(catalogue: Cat
     catalogue.remove("old-motor")
     with pytest.raises(UnknownName, match="there is no 'old-moter' in the catalogue; did you mean 'old-motor'"):
         catalogue.history("old-moter")
-    with pytest.raises(UnknownName, match="in winches"):
+    with pytest.raises(UnknownName, match=r"there is no 'old-motor' in winches; known are filipovic-kevac-2018-winch$"):
         catalogue.history("old-motor", "winches")
+
+
+def test_a_removed_or_renamed_actuator_is_found_by_the_name_that_it_had(catalogue: Catalogue) -> None:
+    catalogue.copy("Actuator 1", "mine", {"name": "First"})
+    catalogue.edit("mine", {"name": "Second"})
+    catalogue.remove("mine")
+    for name in ("First", "Second"):
+        changes = catalogue.history(name)
+        assert changes == catalogue.history(name, "actuator") == catalogue.history("mine")
+    with pytest.raises(UnknownName, match="did you mean 'Second'"):
+        catalogue.history("Secund")
+    with pytest.raises(UnknownName, match="in motors"):
+        catalogue.history("Second", "motors")
+
+
+def test_a_name_belongs_to_who_has_it_now_then_to_all_who_had_it(catalogue: Catalogue) -> None:
+    for row_id in ("a", "b"):
+        catalogue.copy("Actuator 1", row_id, {"name": "Mine"})
+        if row_id == "a":
+            catalogue.remove("a")
+    assert {change.row_id for change in catalogue.history("Mine")} == {"b"}
+    catalogue.remove("b")
+    assert [(change.row_id, change.action) for change in catalogue.history("Mine") if change.field in {None, "id"}] == [
+        ("a", "added"),
+        ("a", "removed"),
+        ("b", "added"),
+        ("b", "removed"),
+    ]
 
 
 def test_a_row_from_before_the_history_began_has_none_until_it_changes(template: Path, tmp_path: Path) -> None:

@@ -14,11 +14,12 @@ from actuator_select.cli.catalog.showing import show
 
 @click.group("catalog")
 def command() -> None:
-    """Query, extend and check the catalogue of motors, gearboxes, winches, ropes and actuators.
+    """Query, extend and check the catalogue: motors, gearboxes, winches, ropes, actuators, and more.
 
-    An actuator is a named assembly of a motor, a gearbox (or none) and a winch. Every figure has its unit in the
-    column's name (rated_torque_nm: N m) and every row the source that states it. Unknown, unlimited and zero differ:
-    an empty cell is unknown, the word unlimited says that there is no limit.
+    An actuator is a named assembly of a motor, a gearbox (or none) and a winch; compatibilities say which gearboxes fit
+    which motors; sources are the documents that state the figures. Every figure has its unit in the column's name
+    (rated_torque_nm: N m) and every row its source. Unknown, unlimited and zero differ: an empty cell is unknown, the
+    word unlimited says that there is no limit.
 
     \b
     Examples:

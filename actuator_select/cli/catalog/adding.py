@@ -4,7 +4,7 @@ import click
 
 from actuator_select.cli import console, options
 from actuator_select.cli.catalog.interview import interview, split_fields
-from actuator_select.cli.catalog.session import opened
+from actuator_select.cli.catalog.session import findings_of, opened, warn_of
 
 
 @click.command("add")
@@ -14,10 +14,10 @@ from actuator_select.cli.catalog.session import opened
 def add(kind: str, fields: tuple[str, ...], database: str | None) -> None:
     """Add one row: FIELD=VALUE on the command line, or without fields, question by question.
 
-    KIND is source, motor, gearbox, winch, rope or actuator. Units are those of the field's name; `actuator-select
-    catalog fields KIND` lists all fields with their ranges. What is left out or empty is unknown. Every row names its
-    source: source_id=… for one that the catalogue has, or source.document=… with source.url=… (or source.page=…,
-    source.doi=…) and source.date=… for a new one.
+    KIND is source, motor, gearbox, compatibility, winch, rope or actuator. Units are those of the field's name;
+    `actuator-select catalog fields KIND` lists all fields with their ranges. What is left out or empty is unknown.
+    Every row names its source: source_id=… for one that the catalogue has, or source.document=… with source.url=… (or
+    source.page=…, source.doi=…) and source.date=… for a new one.
 
     \b
     Examples:
@@ -28,7 +28,6 @@ def add(kind: str, fields: tuple[str, ...], database: str | None) -> None:
             winch_id=filipovic-kevac-2018-winch source_id=acme-catalogue-2024
     """
     from actuator_select.database.kinds import find_kind
-    from actuator_select.selection import check_rows
 
     found = find_kind(kind)
     values, source = split_fields(fields)
@@ -40,7 +39,7 @@ def add(kind: str, fields: tuple[str, ...], database: str | None) -> None:
                 f"{found.description}. Press Enter where a figure is unknown, Ctrl-C to stop; nothing is half-added."
             )
             row = interview(catalogue, found, lambda answers, new: catalogue.add(found.name, answers, new))
-    for finding in check_rows(found.name, [row]):
-        console.warn(f"{finding.kind} {finding.id}: {finding.text}")
+        findings = findings_of(catalogue, found.name, [row])
     console.say(f"Added {found.singular} {row['id']}.")
     console.say(f"Next: actuator-select catalog show {row['id']} --kind {found.name}")
+    warn_of(findings)

@@ -8,7 +8,7 @@ import click
 from actuator_select.cli import console, options
 from actuator_select.cli.catalog.cells import exact
 from actuator_select.cli.catalog.interview import EMPTIED, Values, interview, split_fields
-from actuator_select.cli.catalog.session import opened, warn_of
+from actuator_select.cli.catalog.session import findings_of, opened, warn_of
 
 if TYPE_CHECKING:
     from actuator_select.database import Catalogue
@@ -48,7 +48,9 @@ def edit(row_id: str, fields: tuple[str, ...], kind: str | None, dry_run: bool, 
             done = catalogue.edit(row_id, values, kind, source, dry_run=dry_run)
         else:
             done = _edit_by_questions(catalogue, row_id, kind, dry_run=dry_run)
+        findings = findings_of(catalogue, done.kind, [done.row]) if done.differences else []
     _tell_edit(done, dry_run=dry_run)
+    warn_of(findings)
 
 
 @click.command("copy")
@@ -71,14 +73,14 @@ def copy(row_id: str, fields: tuple[str, ...], new_id: str, kind: str | None, da
         actuator-select catalog copy "Actuator 1" --as mine-2 name="My second drive" motor_id=my-motor
     """
     from actuator_select.database.kinds import find_kind
-    from actuator_select.selection import check_rows
 
     values, source = split_fields(fields)
     with opened(database) as catalogue:
         found, row = catalogue.copy(row_id, new_id, values, kind, source)
+        findings = findings_of(catalogue, found, [row])
     console.say(f"Added {find_kind(found).singular} {new_id}, copied from {row_id}.")
     console.say(f"Next: actuator-select catalog show {new_id} --kind {found}")
-    warn_of(check_rows(found, [row]))
+    warn_of(findings)
 
 
 @click.command("remove")
@@ -139,7 +141,6 @@ def _edit_by_questions(catalogue: "Catalogue", row_id: str, kind: str | None, *,
 
 def _tell_edit(done: "Edit", *, dry_run: bool) -> None:
     from actuator_select.database.kinds import find_kind
-    from actuator_select.selection import check_rows
 
     name = f"{find_kind(done.kind).singular} {done.row['id']}"
     if not done.differences:
@@ -150,4 +151,3 @@ def _tell_edit(done: "Edit", *, dry_run: bool) -> None:
         console.say(f"  {_change_text(difference)}")
     if not dry_run:
         console.say(f"Next: actuator-select catalog show {done.row['id']} --kind {done.kind}")
-    warn_of(check_rows(done.kind, [done.row]))

@@ -24,8 +24,8 @@ def check(kind: str | None, output_format: str, database: str | None) -> None:
     """Check that every row agrees with itself: power = torque × speed, back-EMF = torque constant, and so on.
 
     A finding is a warning: the figure may be right and the rule too simple. The exit status is 0 also with findings.
-    Findings about shipped rows are explained, as long as nobody edited the row. KIND actuators checks the parts that
-    actuators are made of.
+    Findings about shipped rows are explained, as long as nobody edited the row. KIND is motor, gearbox, winch or rope
+    (there are no rules for other rows), or actuator for the parts that actuators are made of.
 
     \b
     Examples:
@@ -50,10 +50,23 @@ def check(kind: str | None, output_format: str, database: str | None) -> None:
         from actuator_select.report.findings import render_findings
         from actuator_select.selection.explanations import dc_motors_text
 
-        click.echo(render_findings(result, dc_motors_text()), nl=False)
+        click.echo(render_findings(result, dc_motors_text(), _command(found, database)), nl=False)
     else:
         _emit_findings(result)
     console.say(_summary(result))
+
+
+def _command(kind: str | None, database: str | None) -> str:
+    """What writes the document again."""
+    from shlex import quote
+
+    from actuator_select.database.connection import database_url, shown
+    from actuator_select.report.findings import COMMAND
+
+    if kind is None and database == ":memory:":
+        return COMMAND
+    which = "" if database is None else f" --database {quote(shown(database_url(database)))}"
+    return f"actuator-select catalog check{'' if kind is None else f' {kind}'} --format markdown{which}"
 
 
 def _emit_findings(result: "CatalogueCheck") -> None:

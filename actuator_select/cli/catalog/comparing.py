@@ -26,8 +26,8 @@ _LISTED_ROWS = 20  # rows of one kind that the table names; JSON names all
 def history(row_id: str, kind: str | None, output_format: str, database: str | None) -> None:
     """Show what happened to a row: when (UTC), by what, and every value before and after.
 
-    ID is the row's id, also of a row that was removed; an actuator's name does as well. A catalogue made by an older
-    program has kept its history only since a newer one opened it.
+    ID is the row's id, also of a row that was removed; an actuator's name does as well, also a former one. A
+    catalogue made by an older program has kept its history only since a newer one opened it.
 
     \b
     Examples:
@@ -36,7 +36,7 @@ def history(row_id: str, kind: str | None, output_format: str, database: str | N
     """
     with opened(database) as catalogue:
         changes = catalogue.history(row_id, kind)
-    began = {change.kind: change.action == "added" for change in reversed(changes)}
+    began = {(change.kind, change.row_id): change.action == "added" for change in reversed(changes)}
     is_complete = bool(began) and all(began.values())
     if output_format == "json":
         console.emit_json({"id": row_id, "is_complete": is_complete, "changes": [asdict(change) for change in changes]})

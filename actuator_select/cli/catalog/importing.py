@@ -113,7 +113,11 @@ class _Findings:
         self.count = 0
 
     def check(self, kind: str, rows: "Sequence[Row]") -> None:
-        """Check a portion of rows."""
+        """Check a portion of rows.
+
+        Rules about groups compare within the portion only: memory stays flat, and the catalogue's other rows may yet be
+        changed by the same import. `catalog check` compares with all of them.
+        """
         from actuator_select.selection import check_rows
 
         found = check_rows(kind, rows)

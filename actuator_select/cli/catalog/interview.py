@@ -49,6 +49,7 @@ def interview(
     """Ask for every field and write the answers; ask again for what the whole row shows to be wrong.
 
     With the values of a row that is `present`, only those that the answers change are written, and not its id.
+    A question that is repeated offers the last answer.
     """
     fields = [field for field in kind.fields if present is None or field.name != "id"]
     before = {field.name: None if present is None else present[field.name] for field in fields}
@@ -58,9 +59,9 @@ def interview(
     while True:
         for field in fields:
             if field.name in asked:
-                answers[field.name] = _ask(catalogue, kind, field, before[field.name])
+                answers[field.name] = _ask(catalogue, kind, field, answers[field.name], before[field.name])
         if answers.get("source_id") == NEW_SOURCE and (source is None or "source_id" in asked):
-            source = _ask_source(catalogue)
+            source = _ask_source(catalogue, source or {})
         values = {name: value for name, value in answers.items() if present is None or value != before[name]}
         is_new = values.get("source_id") == NEW_SOURCE
         if is_new:
@@ -72,6 +73,7 @@ def interview(
             asked = {field.name for field in fields} & _places(error)
             if not asked:
                 raise
+            console.say(f"Once more; Enter keeps what stands in brackets, {EMPTIED} empties it.")
 
 
 def _places(error: InvalidRows) -> set[str]:
@@ -79,11 +81,14 @@ def _places(error: InvalidRows) -> set[str]:
     return {"source_id" if problem.place.startswith(_SOURCE_PREFIX) else problem.place for problem in error.problems}
 
 
-def _ask_source(catalogue: "Catalogue") -> Values:
+def _ask_source(catalogue: "Catalogue", last: Values) -> Values:
     from actuator_select.database.kinds import SOURCES
 
     console.say("The new source:")
-    answers = {field.name: _ask(catalogue, SOURCES, field, derived=field.name == "id") for field in SOURCES.fields}
+    answers = {
+        field.name: _ask(catalogue, SOURCES, field, last.get(field.name), derived=field.name == "id")
+        for field in SOURCES.fields
+    }
     return {name: answer for name, answer in answers.items() if answer is not None}
 
 
@@ -91,14 +96,15 @@ def _ask(
     catalogue: "Catalogue",
     kind: "Kind",
     field: "Field",
+    offered: Any = None,  # noqa: ANN401 - any value of the catalogue
     present: Any = None,  # noqa: ANN401 - any value of the catalogue
     *,
     derived: bool = False,
 ) -> object:
-    """Ask until the answer can stand in the field."""
+    """Ask until the answer can stand in the field; Enter takes what is `offered`."""
     from actuator_select.database.cells import Refused, read_value, write_value
 
-    default = write_value(present)
+    default = write_value(offered)
     while True:
         text = _answer(_question(field, derived=derived), default)
         if default not in {"", text} and text.strip() == EMPTIED:

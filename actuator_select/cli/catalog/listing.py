@@ -6,11 +6,12 @@ import click
 
 from actuator_select.cli import console, options
 from actuator_select.cli.catalog.cells import fitting, folded, printed, shortened
-from actuator_select.cli.catalog.session import opened
+from actuator_select.cli.catalog.session import findings_of, opened
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from actuator_select.database import Catalogue
     from actuator_select.database.fields import Kind
     from actuator_select.database.queries import Column
 
@@ -34,7 +35,7 @@ MARK = "!"
 def list_rows(
     kind: str, where: str, sort: str, columns: str, limit: int | None, output_format: str, database: str | None
 ) -> None:
-    """List rows of one KIND: sources, motors, gearboxes, winches, ropes or actuators.
+    """List rows of one KIND: sources, motors, gearboxes, compatibilities, winches, ropes or actuators.
 
     Actuators can be filtered, sorted and shown by the columns of their parts: motor.rated_power_w, gearbox.ratio,
     winch.drum_radius_mm. The bare name does where it is unique. A terminal shows the most important columns that fit,
@@ -69,6 +70,7 @@ def list_rows(
             cells = [{column.name: row[column.name] for column in chosen or every} for row in shown]
             record = {"fingerprint": catalogue.fingerprint()}
             console.emit_json({"kind": found.name, "catalogue": record, "rows": [console.plain(row) for row in cells]})
+        marks = _marks(catalogue, found, shown) if output_format == "table" and not chosen else []
     if output_format == "csv":
         names = [column.name for column in chosen or every]
         click.echo(write_csv(names, ([write_value(row[name]) for name in names] for row in shown)), nl=False)
@@ -77,7 +79,7 @@ def list_rows(
             _emit_rows(chosen, shown)
         else:
             by_name = {column.name: column for column in every}
-            _emit_rows([by_name[name] for name in found.shown], shown, _marks(found, shown), fit=True)
+            _emit_rows([by_name[name] for name in found.shown], shown, marks, fit=True)
         _say_count(found, len(shown), len(rows))
 
 
@@ -146,28 +148,28 @@ def _chosen_columns(names: str, every: "Sequence[Column]") -> "list[Column]":
     return find_columns(names, every)
 
 
-def _marks(kind: "Kind", rows: "Sequence[dict[str, Any]]") -> list[str]:
+def _marks(catalogue: "Catalogue", kind: "Kind", rows: "Sequence[dict[str, Any]]") -> list[str]:
     """A mark for every row that disagrees with itself, or whose parts do, or that was flagged when it was read."""
     from actuator_select.database.kinds import ACTUATORS, ROLES
-    from actuator_select.selection import check_rows
 
-    def is_doubtful(part: str, row: dict[str, Any]) -> bool:
-        return row["check_status"] == "flag" or bool(check_rows(part, [row]))
+    def doubtful(part: str, some: "Sequence[dict[str, Any]]") -> set[str]:
+        flagged = {row["id"] for row in some if row["check_status"] == "flag"}
+        return flagged | {finding.id for finding in findings_of(catalogue, part, some)}
 
     if "check_status" not in {field.name for field in kind.fields}:
         return [""] * len(rows)
-    doubts = [is_doubtful(kind.name, row) for row in rows]
+    doubts = doubtful(kind.name, rows)
     if kind is ACTUATORS:
         for role, part in ROLES.items():
-            known: dict[object, bool] = {None: False}  # actuators share parts
-            for index, row in enumerate(rows):
-                part_id = row[f"{role}_id"]
-                if part_id not in known:
-                    known[part_id] = is_doubtful(
-                        part.name, {field.name: row[f"{role}.{field.name}"] for field in part.columns}
-                    )
-                doubts[index] = doubts[index] or known[part_id]
-    return [MARK if doubt else "" for doubt in doubts]
+            # By id, because actuators share parts.
+            parts = {
+                row[f"{role}_id"]: {field.name: row[f"{role}.{field.name}"] for field in part.columns}
+                for row in rows
+                if row[f"{role}_id"] is not None
+            }
+            found = doubtful(part.name, list(parts.values()))
+            doubts |= {row["id"] for row in rows if row[f"{role}_id"] in found}
+    return [MARK if row["id"] in doubts else "" for row in rows]
 
 
 def _emit_rows(

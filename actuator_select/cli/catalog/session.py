@@ -10,6 +10,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
     from actuator_select.database import Catalogue
+    from actuator_select.database.queries import Row
     from actuator_select.selection import Finding
 
 
@@ -21,6 +22,21 @@ def opened(database: str | None) -> "Iterator[Catalogue]":
     with open_catalogue(database) as catalogue:
         console.say_all(catalogue.notices)
         yield catalogue
+
+
+def findings_of(catalogue: "Catalogue", kind: str, rows: "Sequence[Row]") -> "list[Finding]":
+    """What some rows of a kind say against themselves, or against all rows that the catalogue has of their group.
+
+    The rows need not be written yet; the catalogue is read only for a kind that has rules about groups.
+    """
+    from actuator_select.selection import check_rows
+    from actuator_select.selection.plausibility_rules import RULES
+
+    if not rows or not any(rule.group for rule in RULES.get(kind, ())):
+        return check_rows(kind, rows)
+    ids = {row["id"] for row in rows}
+    others = [row for row in catalogue.rows(kind) if row["id"] not in ids]
+    return check_rows(kind, rows, among=[*others, *rows])
 
 
 def finding_sentence(finding: "Finding") -> str:

@@ -8,7 +8,7 @@ import click
 
 from actuator_select.cli import console, options
 from actuator_select.cli.catalog.cells import UNKNOWN, printed
-from actuator_select.cli.catalog.session import finding_record, opened, warn_of
+from actuator_select.cli.catalog.session import finding_record, findings_of, opened, warn_of
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -43,8 +43,6 @@ def show(
         actuator-select catalog show "Actuator 1" --plot drum.png
         actuator-select catalog show filipovic-kevac-2018-motor-4 --format json
     """
-    from actuator_select.selection import check_rows
-
     draw = options.plot_writer(plot)
     with opened(database) as catalogue:
         found, joined = catalogue.part(row_id, kind)
@@ -52,7 +50,7 @@ def show(
         sources = {str(row["source_id"]): None for _, _, row in rows if row.get("source_id") is not None}
         known_sources = {source_id: catalogue.source(source_id) for source_id in sources}
         uses = _uses(catalogue, found, str(joined["id"]))
-    findings = [finding for _, part_kind, row in rows for finding in check_rows(part_kind, [row])]
+        findings = [finding for _, part_kind, row in rows for finding in findings_of(catalogue, part_kind, [row])]
     if plot is not None:
         from actuator_select.report.part_figures import part_figure
         from actuator_select.selection.part_characteristics import characteristics
@@ -105,20 +103,17 @@ def _with_parts(catalogue: "Catalogue", kind: str, joined: dict[str, Any]) -> li
 
 def _uses(catalogue: "Catalogue", kind: str, row_id: str) -> list[str]:
     """What refers to a row: the actuators that contain a part, or how many rows cite a source."""
-    from actuator_select.database.kinds import KINDS, ROLES
+    from actuator_select.database.kinds import KINDS
 
-    if kind == "sources":
-        counts = {
-            name: len(catalogue.rows(name, where=f"source_id = '{row_id}'")) for name in KINDS if name != "sources"
-        }
-        return [
-            f"{count} {KINDS[name].singular if count == 1 else name}" for name, count in counts.items() if count
-        ] or ["no row"]
-    for role, part in ROLES.items():
-        if part.name == kind:
-            users = catalogue.rows("actuators", where=f"{role}_id = '{row_id}'")
-            return [f"actuator {user['id']} ({user['name']})" for user in users] or ["no actuator"]
-    return []
+    if not any(field.references == kind for other in KINDS.values() for field in other.references):
+        return []
+    uses = catalogue.uses(row_id, kind)
+    if kind != "sources":
+        return [f"{use.kind.singular} {use.row_id} ({use.name})" for use in uses] or ["no actuator"]
+    counts = {name: sum(use.kind.name == name for use in uses) for name in KINDS}
+    return [f"{count} {KINDS[name].singular if count == 1 else name}" for name, count in counts.items() if count] or [
+        "no row"
+    ]
 
 
 def _emit_row(
