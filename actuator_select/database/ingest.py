@@ -117,7 +117,7 @@ def _row_problems(kind: Kind, record: Record, row: queries.Row) -> list[Problem]
     problems = []
     for column, refused in check_row(kind, row):
         group = next((names for names in kind.any_of if column in names), (column,))
-        if any(record.was_refused(name) for name in group):
+        if any(name in record.refused for name in group):
             continue
         if record.header and kind.field(column).required and column not in record.written:
             # Told once, not for every line.

@@ -90,6 +90,13 @@ def test_failed_formulas_and_dates_in_place_of_numbers_are_named_by_their_cells(
     assert len(told) == 5
 
 
+def test_a_cell_beside_the_columns_is_told_in_the_words_of_a_spreadsheet(catalogue: Catalogue, tmp_path: Path) -> None:
+    rows = [["id", "source_id"], ["m1", SOURCE, "a remark"]]
+    (told,) = refusal(catalogue, write_xlsx(tmp_path / "p.xlsx", {"motors": rows}))
+    assert told.startswith("p.xlsx, sheet motors, row 2: 3 cells, expected 2 cells, as many as the header; empty the cells")
+    assert "comma" not in told
+
+
 def test_a_sheet_is_chosen_by_its_name(catalogue: Catalogue, tmp_path: Path) -> None:
     rows = [["id", "source_id"], ["m1", SOURCE]]
     path = write_xlsx(tmp_path / "p.xlsx", {"old": [["id"], ["m0"]], "new": rows})
@@ -134,6 +141,74 @@ def test_json_is_read_with_its_units_and_names_of_opc(catalogue: Catalogue, tmp_
     row = catalogue.part("m1")[1]
     assert row["rated_speed_rpm"] == pytest.approx(954.929658551372, rel=1e-14)
     assert (row["peak_torque_nm"], row["rotor_inertia_g_cm2"], row["mass_kg"]) == (inf, 1.2, None)
+
+
+FIELDS_AND_CELLS = [
+    ({"Value": "125", "EngineeringUnits": "mNm"}, 0.125),
+    ({"Value": " 1.25e2 ", "EngineeringUnits": "mNm"}, 0.125),
+    ({"Value": 125, "EngineeringUnits": "mNm"}, 0.125),
+    ({"Value": "125", "EngineeringUnits": "N m"}, 125.0),
+    ({"Value": "125", "EngineeringUnits": "Nm"}, 125.0),
+    ({"Value": "unlimited", "EngineeringUnits": "mNm"}, inf),
+    ({"Value": None, "EngineeringUnits": "mNm"}, None),
+    ({"Value": "", "EngineeringUnits": "mNm"}, None),
+]
+
+
+@pytest.mark.parametrize(("cell", "expected"), FIELDS_AND_CELLS)
+def test_a_figure_of_json_is_in_the_unit_beside_it_also_as_a_text(
+    catalogue: Catalogue, tmp_path: Path, cell: object, expected: float | None
+) -> None:
+    rows = [{"id": "m", "peak_torque_nm": cell, "source_id": SOURCE}]
+    catalogue.import_file(write_json(tmp_path / "motors.json", rows))
+    assert catalogue.part("m")[1]["peak_torque_nm"] == expected
+
+
+def test_a_unit_beside_a_figure_outranks_the_mappings(catalogue: Catalogue, tmp_path: Path, write_csv: Write) -> None:
+    torques = ["125", {"Value": 125, "EngineeringUnits": "mNm"}, {"Value": 2, "EngineeringUnits": "N m"}]
+    torques += [{"Value": "none", "EngineeringUnits": "mNm"}, {"Value": "n/a", "EngineeringUnits": "mNm"}]
+    rows = [{"Name": f"m{number}", "Torque": torque} for number, torque in enumerate(torques)]
+    columns = 'Name = { field = "id" }\nTorque = { field = "peak_torque_nm", unit = "mNm", unlimited = ["none"], '
+    mapping = write_csv("own.toml", f'kind = "motors"\n[columns]\n{columns}missing = ["n/a"] }}\n')
+    catalogue.import_file(write_json(tmp_path / "list.json", rows), mapping=mapping, source=SOURCE)
+    found = [catalogue.part(f"m{number}")[1]["peak_torque_nm"] for number in range(len(torques))]
+    assert found == [0.125, 0.125, 2.0, inf, None]
+
+
+@pytest.mark.parametrize(
+    ("cell", "words"),
+    [
+        ({"Value": "12,5", "EngineeringUnits": "mNm"}, "a decimal comma was given"),
+        ({"Value": "12 Nm", "EngineeringUnits": "mNm"}, "a unit was given"),
+        ({"Value": True, "EngineeringUnits": "mNm"}, "write a number"),
+        ({"Value": [1], "EngineeringUnits": "mNm"}, "write a number"),
+        ({"Value": "unlimited", "EngineeringUnits": "kg"}, "kg measures"),
+        ({"Value": 1, "EngineeringUnits": 1000}, "write it plainly"),
+        ({"Value": 10**400, "EngineeringUnits": "mNm"}, "more than a number can hold"),
+        ({"Value": "1e400", "EngineeringUnits": "N m"}, "more than a number can hold"),
+    ],
+)
+def test_a_figure_of_json_that_cannot_be_converted_is_refused(
+    catalogue: Catalogue, tmp_path: Path, cell: object, words: str
+) -> None:
+    rows = [{"id": "m", "peak_torque_nm": cell, "source_id": SOURCE}]
+    (told,) = refusal(catalogue, write_json(tmp_path / "motors.json", rows))
+    assert words in told
+
+
+@pytest.mark.parametrize("kind", ["motors", None])
+def test_names_of_opc_are_known_whatever_the_list_is_called(
+    catalogue: Catalogue, tmp_path: Path, kind: str | None
+) -> None:
+    rows = [{"id": "m", "MotorPowerRated": {"Value": 0.02, "EngineeringUnits": "kW"}, "source_id": SOURCE}]
+    catalogue.import_file(write_json(tmp_path / "foo.json", rows), kind)
+    assert catalogue.part("m")[1]["rated_power_w"] == 20.0
+
+
+def test_a_column_is_taken_once_by_either_of_its_names(catalogue: Catalogue, tmp_path: Path) -> None:
+    rows = [{"id": "m", "MotorPowerRated": 20, "rated_power_w": 30, "source_id": SOURCE}]
+    (told,) = refusal(catalogue, write_json(tmp_path / "motors.json", rows))
+    assert "'rated_power_w', expected each column once; it is rated_power_w again" in told
 
 
 def test_what_a_row_of_json_leaves_out_keeps_its_value_in_an_update(catalogue: Catalogue, tmp_path: Path) -> None:
