@@ -10,9 +10,10 @@ from actuator_select.database import history, queries
 from actuator_select.database.cells import quoted
 from actuator_select.database.comparing import Difference, differences
 from actuator_select.database.fields import Field, Kind
-from actuator_select.database.ingest import Plan, Record, plan_rows, read_record, refuse, write_plan
+from actuator_select.database.ingest import Plan, plan_rows, refuse, write_plan
 from actuator_select.database.kinds import KINDS
 from actuator_select.database.naming import locate
+from actuator_select.database.records import Record, read_record
 from actuator_select.errors import Problem, RowInUse
 
 Given = Mapping[str, object]

@@ -16,8 +16,8 @@ from actuator_select.database.heading import Heading, read_heading
 from actuator_select.database.ingest import in_order, plan_rows, write_plan
 from actuator_select.database.kinds import KINDS, find_kind
 from actuator_select.database.queries import Row
-from actuator_select.database.records import Record, iter_records
-from actuator_select.database.seen import Seen, remembering
+from actuator_select.database.records import Record, iter_records, places_of
+from actuator_select.database.seen import Purpose, Seen, remembering
 from actuator_select.database.tables import Table, kind_named, kind_of, one_to_many
 from actuator_select.errors import InvalidRows, Problem, UnknownName, did_you_mean
 
@@ -33,7 +33,6 @@ OnRows: TypeAlias = Callable[[str, Sequence[Row]], None]
 _PORTION = 1000  # rows that are held in memory
 _LINES_PER_REPORT = 100  # of progress
 _MOST_PROBLEMS = 2000  # nobody reads more
-_WANTED = "id of replacement"  # under which ids are remembered that stay in a catalogue
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -210,10 +209,11 @@ class _Intake:
         heading, problems = read_heading(kind, table, self._terms.mapping, self._terms.source)
         self._object(problems)
         removed = 0
-        if self._terms.replace and any(field.unique for field in kind.fields):
-            # What goes has to go first: its names may be given to others.
-            self._note_ids(heading)
-            removed = self._remove(kind, self._seen.other_ids(kind, _WANTED))
+        if kind.unique and (self._terms.replace or self._terms.update):
+            # What goes has to go first, and what gets another name to be known: their names may be given to others.
+            is_whole = self._note_coming(heading)
+            if self._terms.replace and is_whole:
+                removed = self._remove(kind, self._seen.other_ids(Purpose.COMING, kind))
         report = ImportReport(kind=kind.name, removed=removed)
         lines = self._counted(heading)
         while self._can_go_on and (portion := list(islice(lines, _PORTION))):
@@ -223,7 +223,7 @@ class _Intake:
 
     def remove_others(self, kind: Kind) -> int:
         """Remove the rows of a kind that were not in the file; how many there were."""
-        return self._remove(kind, self._seen.other_ids(kind, "id"))
+        return self._remove(kind, self._seen.other_ids(Purpose.PLACE, kind))
 
     def refuse(self, name: str) -> None:
         """Raise `InvalidRows` if anything was objected to."""
@@ -258,7 +258,7 @@ class _Intake:
         )
         self._object(in_order([*(problem for _, problems in portion for problem in problems), *more]))
         if not self._problems:
-            write_plan(self._connection, heading.kind, plan, by=self._terms.by)
+            write_plan(self._connection, heading.kind, plan, by=self._terms.by, seen=self._seen)
             if self._on_rows is not None:
                 self._on_rows(heading.kind.name, (*plan.added, *plan.updated))
         return replace(
@@ -290,12 +290,26 @@ class _Intake:
             self._progress(done, self._total)
         return done
 
-    def _note_ids(self, heading: Heading) -> None:
+    def _note_coming(self, heading: Heading) -> bool:
+        """Note which ids and unique texts are to come; whether the file could be read to its end.
+
+        What is wrong is told when the rows are taken in.
+        """
+        kind = heading.kind
         records = (record for _, record, _ in iter_records(heading) if record is not None)
-        while portion := list(islice(records, _PORTION)):
-            ids = {str(one.given["id"]): one.place for one in portion if one.given.get("id") is not None}
-            known = self._seen.places(heading.kind, _WANTED, ids)
-            self._seen.note(heading.kind, _WANTED, {one: place for one, place in ids.items() if one not in known})
+        try:
+            while portion := list(islice(records, _PORTION)):
+                rows = {row_id: record for _, row_id, record in places_of(portion, "id")}
+                known = self._seen.recall(Purpose.COMING, kind, "id", rows)
+                new = [record for row_id, record in rows.items() if row_id not in known]
+                for field in ("id", *(one.name for one in kind.unique)):
+                    said = {str(one.given["id"]): value for _, value, one in places_of(new, field)}
+                    self._seen.note(Purpose.COMING, kind, field, said)
+        except InvalidRows as error:
+            if not error.problems:
+                raise
+            return False
+        return True
 
     def _remove(self, kind: Kind, ids: Sequence[str]) -> int:
         users = queries.fetch_referring(self._connection, kind, ids)

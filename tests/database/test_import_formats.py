@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+import sqlalchemy as sa
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from openpyxl import Workbook
@@ -93,7 +94,9 @@ def test_failed_formulas_and_dates_in_place_of_numbers_are_named_by_their_cells(
 def test_a_cell_beside_the_columns_is_told_in_the_words_of_a_spreadsheet(catalogue: Catalogue, tmp_path: Path) -> None:
     rows = [["id", "source_id"], ["m1", SOURCE, "a remark"]]
     (told,) = refusal(catalogue, write_xlsx(tmp_path / "p.xlsx", {"motors": rows}))
-    assert told.startswith("p.xlsx, sheet motors, row 2: 3 cells, expected 2 cells, as many as the header; empty the cells")
+    assert told.startswith(
+        "p.xlsx, sheet motors, row 2: 3 cells, expected 2 cells, as many as the header; empty the cells"
+    )
     assert "comma" not in told
 
 
@@ -286,6 +289,73 @@ def test_a_name_is_free_once_its_row_is_replaced(catalogue: Catalogue, write_csv
     (report,) = catalogue.import_file(write_csv("actuators.csv", text), replace=True)
     assert (report.added, report.removed) == (1, 5)
     assert catalogue.count("actuators") == 1
+
+
+def test_an_export_with_exchanged_names_is_restored(catalogue: Catalogue, tmp_path: Path) -> None:
+    first, second = (f"filipovic-kevac-2018-{number}" for number in (1, 2))
+    for row_id, name in ((first, "Between"), (second, "Actuator 1"), (first, "Actuator 2")):
+        catalogue.edit(row_id, {"name": name})
+    exchanged = catalogue.fingerprint()
+    catalogue.export_folder(tmp_path / "exchanged")
+    for row_id, name in ((first, "Between"), (second, "Actuator 2"), (first, "Actuator 1")):
+        catalogue.edit(row_id, {"name": name})
+    reports = {one.kind: one for one in catalogue.import_file(tmp_path / "exchanged", replace=True)}
+    assert (reports["actuators"].updated, reports["actuators"].unchanged) == (2, 3)
+    assert catalogue.fingerprint() == exchanged
+    last = catalogue.history(first)[-1]
+    assert (last.field, last.old, last.new) == ("name", "Actuator 1", "Actuator 2")
+
+
+PARTS = "filipovic-kevac-2018-motor-1,filipovic-kevac-2018-winch,$"
+ACTUATORS = "id,name,motor_id,winch_id,source_id\n"
+
+
+@pytest.mark.parametrize("option", ["update", "replace"])
+def test_names_are_exchanged_and_handed_on_far_apart(catalogue: Catalogue, write_csv: Write, option: str) -> None:
+    count = 2100  # more than two portions
+    names = [f"Name {number}" for number in range(count)]
+    rows = "".join(f"a{number},{name},{PARTS}\n" for number, name in enumerate(names))
+    path = write_csv("actuators.csv", ACTUATORS + rows)
+    catalogue.import_file(path)
+    names[0], names[-1] = names[-1], names[0]
+    names[1], names[1050], names[2090] = names[1050], "Another", names[1]
+    rows = "".join(f"a{number},{name},{PARTS}\n" for number, name in enumerate(names))
+    write_csv("actuators.csv", ACTUATORS + f"new,Name 2090,{PARTS}\n" + rows)
+    (report,) = catalogue.import_file(path, **{option: True})
+    assert (report.added, report.updated, report.unchanged) == (1, 5, count - 5)
+    found = {str(row["id"]): row["name"] for row in catalogue.rows("actuators")}
+    assert [found[f"a{number}"] for number in range(count)] == names
+    assert found["new"] == "Name 2090"
+    last = catalogue.history("a2099")[-1]
+    assert (last.field, last.old, last.new) == ("name", "Name 2099", "Name 0")
+
+
+def test_a_name_that_its_row_keeps_is_not_given_to_another(catalogue: Catalogue, write_csv: Write) -> None:
+    header = "id,name,motor_id,winch_id,source_id\n"
+    taken = write_csv("actuators.csv", f"{header}filipovic-kevac-2018-1,Actuator 2,{PARTS}\n")
+    (told,) = refusal(catalogue, taken, update=True)
+    assert "expected another name than actuator 'filipovic-kevac-2018-2' of the catalogue" in told
+    taken = write_csv("actuators.csv", "id,name,price\nfilipovic-kevac-2018-1,Actuator 2,\nfilipovic-kevac-2018-2,,1\n")
+    told = refusal(catalogue, taken, update=True)[0]
+    assert "expected another name than actuator 'filipovic-kevac-2018-2' of the catalogue" in told
+
+
+def test_of_a_replacement_that_breaks_off_every_problem_is_told(catalogue: Catalogue, write_csv: Write) -> None:
+    rows = f"filipovic-kevac-2018-1,Actuator 5,nowhere,filipovic-kevac-2018-winch,$\nx,Actuator 2,{PARTS}\n"
+    path = write_csv("actuators.csv", f'{ACTUATORS}{rows}y,"Broken,{PARTS}\n')
+    told = refusal(catalogue, path, replace=True)
+    assert [one.split(":")[0] for one in told] == ["actuators.csv, line 2, motor_id", "actuators.csv, line 4"]
+
+
+def test_an_import_drops_no_table_which_would_end_the_transaction_on_mysql(
+    catalogue: Catalogue, write_csv: Write
+) -> None:
+    said: list[str] = []
+    sa.event.listen(catalogue._engine, "before_cursor_execute", lambda *one: said.append(one[2]))  # noqa: SLF001
+    for number in range(2):
+        catalogue.import_file(write_csv("motors.csv", f"id,source_id\nm{number},$\n"))
+    assert not [statement for statement in said if "DROP" in statement]
+    assert [statement for statement in said if "CREATE TEMPORARY TABLE" in statement]
 
 
 def test_what_others_use_is_not_replaced(catalogue: Catalogue, write_csv: Write) -> None:
