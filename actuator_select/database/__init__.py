@@ -1,4 +1,7 @@
-"""The catalogue: tables, migrations, shipped rows, CSV files and queries. It knows nothing of physics."""
+"""The catalogue: tables, migrations, shipped rows, queries, history, and files in CSV, XLSX and JSON.
+
+It knows nothing of physics.
+"""
 
 from importlib import import_module
 from typing import TYPE_CHECKING, Any

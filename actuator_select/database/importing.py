@@ -1,25 +1,23 @@
 """Taking in whole files: in one transaction, portion by portion, so that memory stays flat; all of it or nothing."""
 
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from itertools import islice
-from pathlib import Path
 from typing import TYPE_CHECKING, TypeAlias
 
 import sqlalchemy as sa
 
 from actuator_select.database import history, queries
-from actuator_select.database.csv_table import SEMICOLONS, read_csv
+from actuator_select.database.csv_table import SEMICOLONS
 from actuator_select.database.fields import Kind
 from actuator_select.database.heading import Heading, read_heading
 from actuator_select.database.ingest import in_order, plan_rows, write_plan
-from actuator_select.database.kinds import KINDS, find_kind
 from actuator_select.database.queries import Row
 from actuator_select.database.records import Record, iter_records, places_of
 from actuator_select.database.seen import Purpose, Seen, remembering
-from actuator_select.database.tables import Table, kind_named, kind_of, one_to_many
-from actuator_select.errors import InvalidRows, Problem, UnknownName, did_you_mean
+from actuator_select.database.suggestions import first_of
+from actuator_select.database.tables import Table
+from actuator_select.errors import InvalidRows, Problem
 
 if TYPE_CHECKING:
     from actuator_select.database.mapping import Mapping
@@ -80,66 +78,6 @@ class Terms:
     source: str | None = None
     update: bool = False
     replace: bool = False
-
-
-@contextmanager
-def tables_of(
-    path: Path, kind: str | None, mapping: "Mapping | None" = None, sheet: str | None = None
-) -> Iterator[list[tuple[Kind, Table]]]:
-    """Open a file or a folder while its tables are read.
-
-    Parameters
-    ----------
-    path : Path
-        A CSV, XLSX or JSON file, or a folder of CSV files that are named after kinds.
-    kind : str or None
-        Kind of the rows, or which of several to take; told by names and headers by default.
-    mapping : Mapping, optional
-        What tells the kind and how CSV is written.
-    sheet : str, optional
-        Of a workbook.
-
-    Yields
-    ------
-    list of (Kind, Table)
-        In an order in which references point backwards.
-
-    Raises
-    ------
-    InvalidRows
-        If it cannot be read.
-    UnknownName
-        If a kind or a sheet does not exist or cannot be told.
-    """
-    wanted = None if kind is None else find_kind(kind).name
-    form = None
-    if mapping is not None:
-        form, mapped = mapping.csv_format, find_kind(mapping.kind).name
-        if wanted not in {None, mapped}:
-            raise UnknownName(f"the mapping {mapping.name} is for {mapped}, not {wanted}; drop --kind, or take another")
-        wanted = mapped
-    suffix = path.suffix.casefold()
-    if sheet is not None and suffix != ".xlsx":
-        raise UnknownName(f"{path.name} is no XLSX workbook and has no sheet {sheet!r}; drop --sheet")
-    if suffix == ".xlsx":
-        from actuator_select.database.xlsx_table import xlsx_tables
-
-        with xlsx_tables(path) as tables:
-            chosen = tables if sheet is None else [_sheet(tables, sheet, path)]
-            yield _with_kinds(chosen, path, wanted, is_stated=sheet is not None)
-    elif suffix == ".json":
-        from actuator_select.database.json_table import json_tables
-
-        yield _with_kinds(json_tables(path), path, wanted)
-    elif path.is_dir():
-        named = {one: path / f"{one}.csv" for one in KINDS}
-        files = [file for one, file in named.items() if file.is_file() and wanted in {None, one}]
-        yield _with_kinds([read_csv(file, form) for file in files], path, wanted)
-    else:
-        table = read_csv(path, form)
-        if mapping is not None and mapping.layout == "one-to-many":
-            table = one_to_many(table)
-        yield [(find_kind(wanted or kind_of(table)), table)]
 
 
 def take_in(
@@ -317,7 +255,7 @@ class _Intake:
             Problem(
                 place=f"{kind.singular} {row_id!r} of the catalogue",
                 value="not in the file",
-                expected=f"a row for it, because {_some(by)} {'uses' if len(by) == 1 else 'use'} it",
+                expected=f"a row for it, because {first_of(by)} {'uses' if len(by) == 1 else 'use'} it",
                 remedy="replace or remove these first, or import with --update instead of --replace",
             )
             for row_id, by in users.items()
@@ -328,14 +266,6 @@ class _Intake:
 
     def _object(self, problems: "Sequence[Problem] | Iterator[Problem]") -> None:
         self._problems.update(dict.fromkeys(problems))
-
-
-_NAMED_USERS = 5
-
-
-def _some(names: Sequence[str]) -> str:
-    others = len(names) - _NAMED_USERS
-    return ", ".join(names[:_NAMED_USERS]) + (f" and {others} more" if others > 0 else "")
 
 
 def _with_decimal_comma(problems: list[Problem]) -> list[Problem]:
@@ -349,30 +279,3 @@ def _with_decimal_comma(problems: list[Problem]) -> list[Problem]:
         '[csv], then delimiter = ";" and decimal = ","'
     )
     return [replace(one, remedy=remedy) if one.remedy == SEMICOLONS else one for one in problems]
-
-
-def _with_kinds(
-    tables: Sequence[Table], path: Path, wanted: str | None, *, is_stated: bool = False
-) -> list[tuple[Kind, Table]]:
-    """Tables and their kinds, in an order in which references point backwards; others are passed over."""
-    if wanted is not None and len(tables) == 1 and (is_stated or kind_named(tables[0].title) in {None, wanted}):
-        return [(KINDS[wanted], tables[0])]
-    named = [(KINDS[name], table) for table in tables if (name := kind_named(table.title))]
-    if wanted is None and not named and len(tables) == 1:
-        return [(KINDS[kind_of(tables[0])], tables[0])]
-    found = [(kind, table) for kind, table in named if wanted in {None, kind.name}]
-    if not found:
-        has = f"; it has {', '.join(table.title for table in tables)}" if tables else " or is empty"
-        asked = wanted or "a kind of row, such as motors"
-        raise InvalidRows(f"{path} has no part named {asked}{has}; name one so, or state --sheet and --kind")
-    names = [kind.name for kind, _ in found]
-    if twice := next((name for name in names if names.count(name) > 1), None):
-        raise InvalidRows(f"{path} has several parts for {twice}; state one with --sheet")
-    return sorted(found, key=lambda one: list(KINDS).index(one[0].name))
-
-
-def _sheet(tables: Sequence[Table], sheet: str, path: Path) -> Table:
-    for table in tables:
-        if table.title == sheet:
-            return table
-    raise UnknownName(f"{path.name} has no sheet {sheet!r}; {did_you_mean(sheet, [one.title for one in tables])}")

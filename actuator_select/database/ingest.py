@@ -93,20 +93,7 @@ def plan_rows(
         problems += _row_problems(kind, record, row)
     for field in kind.references:
         problems += _unknown_references(connection, field, records, seen)
-    giving_up = {}
-    for field in kind.unique:
-        twice = _repeated(kind, field.name, records, seen)
-        found = [one for one in places_of(records, field.name) if one[0] not in twice]
-        holders = queries.fetch_holders(connection, kind, field.name, (value for _, value, _ in found))
-        coming = {} if seen is None else seen.recall(Purpose.COMING, kind, field.name, holders.values())
-        if replace:
-            # Rows that do not come are removed; where they are not yet, something else was objected to.
-            holders = {value: holder for value, holder in holders.items() if holder in coming}
-        giving_up[field.name] = {
-            holder: value for value, holder in holders.items() if coming.get(holder, value) != value
-        }
-        taken = _taken(kind, field.name, found, holders, giving_up[field.name])
-        problems += [*twice.values(), *taken]
+    objections, giving_up = _unique_fields(connection, kind, records, replace=replace, seen=seen)
     plan = Plan(
         added=tuple(added),
         updated=tuple(updated),
@@ -114,7 +101,7 @@ def plan_rows(
         before=existing,
         giving_up=giving_up,
     )
-    return plan, problems
+    return plan, [*problems, *objections]
 
 
 def refuse(heading: str, problems: Sequence[Problem]) -> None:
@@ -188,6 +175,28 @@ def _repeated(kind: Kind, column: str, records: Sequence[Record], seen: Seen | N
     if seen is not None:
         seen.note(Purpose.PLACE, kind, column, new)
     return problems
+
+
+def _unique_fields(
+    connection: sa.Connection, kind: Kind, records: Sequence[Record], *, replace: bool, seen: Seen | None
+) -> tuple[list[Problem], dict[str, dict[str, str]]]:
+    """Objections to what two rows would hold, and by field the rows that give up what they hold, with that."""
+    problems: list[Problem] = []
+    giving_up = {}
+    for field in kind.unique:
+        twice = _repeated(kind, field.name, records, seen)
+        found = [one for one in places_of(records, field.name) if one[0] not in twice]
+        holders = queries.fetch_holders(connection, kind, field.name, (value for _, value, _ in found))
+        coming = {} if seen is None else seen.recall(Purpose.COMING, kind, field.name, holders.values())
+        if replace:
+            # Rows that do not come are removed; where they are not yet, something else was objected to.
+            holders = {value: holder for value, holder in holders.items() if holder in coming}
+        giving_up[field.name] = {
+            holder: value for value, holder in holders.items() if coming.get(holder, value) != value
+        }
+        taken = _taken(kind, field.name, found, holders, giving_up[field.name])
+        problems += [*twice.values(), *taken]
+    return problems, giving_up
 
 
 def _taken(

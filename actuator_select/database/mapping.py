@@ -103,7 +103,7 @@ class Mapping(_Strict):
     description : str
         For people.
     layout : {"table", "one-to-many"}
-        One row per line, or a line of a key and others, each of which makes a row with the columns 1 and 2.
+        One row per line, or a line of a key and others, each of which makes a row with the columns 1 and 2 (CSV only).
     id_from : str
         Template of the id, with our columns in braces, where no foreign column holds one.
     ignore_others : bool
@@ -135,6 +135,11 @@ class Mapping(_Strict):
         # A byte order mark is no part of the first column's name.
         encoding = "utf-8-sig" if codecs.lookup(self.csv.encoding).name == "utf-8" else self.csv.encoding
         return CsvFormat(delimiter=self.csv.delimiter, encoding=encoding, header=self.csv.header)
+
+    @property
+    def is_for_any_format(self) -> bool:
+        """Whether it says nothing that only CSV files can be."""
+        return self.csv.header and self.layout == "table"
 
     @property
     def id_columns(self) -> list[str]:

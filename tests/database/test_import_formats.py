@@ -103,7 +103,7 @@ def test_a_cell_beside_the_columns_is_told_in_the_words_of_a_spreadsheet(catalog
 def test_a_sheet_is_chosen_by_its_name(catalogue: Catalogue, tmp_path: Path) -> None:
     rows = [["id", "source_id"], ["m1", SOURCE]]
     path = write_xlsx(tmp_path / "p.xlsx", {"old": [["id"], ["m0"]], "new": rows})
-    with pytest.raises(InvalidRows, match="it has old, new; name one so, or state --sheet"):
+    with pytest.raises(InvalidRows, match="it has old, new; state one with --sheet"):
         catalogue.import_file(path)
     with pytest.raises(UnknownName, match="has no sheet 'newer'; did you mean 'new'"):
         catalogue.import_file(path, sheet="newer")
@@ -264,8 +264,63 @@ def test_a_folder_is_one_import(catalogue: Catalogue, tmp_path: Path) -> None:
     )
     (report,) = catalogue.import_file(tmp_path / "all", "motors", update=True)
     assert (report.added, report.unchanged) == (1, 4)
-    with pytest.raises(InvalidRows, match="has no part named"):
+    with pytest.raises(InvalidRows, match=r"has no file named after a kind of row, such as motors; name the file so$"):
         catalogue.import_file(tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("titles", "options", "words"),
+    [
+        (["motors", "gearboxs"], {}, "has a sheet 'gearboxs', which is no kind of row; did you mean 'gearboxes'"),
+        (["motors", "Winchs"], {"kind": "winches"}, "did you mean 'winches'"),
+        (["Notes", "Ideas"], {}, "no sheet named after a kind of row, such as motors; it has Notes, Ideas; state one"),
+        (["Notes", "motors"], {"kind": "winches"}, "has no sheet named winches; it has Notes, motors; state one with"),
+        (["motor", "motors"], {}, "has several sheets for motors; state one with --sheet"),
+    ],
+)
+def test_a_sheet_that_would_be_passed_over_unseen_is_told(
+    catalogue: Catalogue, tmp_path: Path, titles: list[str], options: dict[str, str], words: str
+) -> None:
+    path = write_xlsx(tmp_path / "p.xlsx", {title: [["id", "source_id"], [title, SOURCE]] for title in titles})
+    (told,) = refusal(catalogue, path, **options)
+    assert words in told
+
+
+def test_a_folder_takes_singular_names_and_refuses_misspelt_ones(catalogue: Catalogue, tmp_path: Path) -> None:
+    folder = tmp_path / "own"
+    folder.mkdir()
+    (folder / "Gearbox.CSV").write_text(f"id,source_id\ng,{SOURCE}\n")
+    (folder / "notes.csv").write_bytes(b"\xff\x00")
+    assert [(one.kind, one.added) for one in catalogue.import_file(folder)] == [("gearboxes", 1)]
+    (folder / "motrs.csv").write_text("")
+    assert "has a file 'motrs', which is no kind of row; did you mean 'motors'" in refusal(catalogue, folder)[0]
+    (folder / "motrs.csv").rename(folder / "gearboxes.csv")
+    (folder / "gearboxes.csv").write_text(f"id,source_id\ng,{SOURCE}\n")
+    assert "has several files for gearboxes; keep one of them" in refusal(catalogue, folder)[0]
+
+
+@pytest.mark.parametrize("words", ['layout = "one-to-many"\n', "[csv]\nheader = false\n"])
+def test_a_mapping_for_csv_alone_takes_no_workbook(
+    catalogue: Catalogue, tmp_path: Path, write_csv: Write, words: str
+) -> None:
+    columns = '[columns]\n1 = { field = "motor_pattern" }\n2 = { field = "gearbox_pattern" }\n'
+    mapping = write_csv("own.toml", f'kind = "compatibilities"\n{words}{columns}')
+    path = write_xlsx(tmp_path / "p.xlsx", {"compatibilities": [["IN_22", "GI_1", "GI_2"]]})
+    with pytest.raises(UnknownName, match=r"own\.toml has no header or a layout of pairs, .*save p\.xlsx as CSV"):
+        catalogue.import_file(path, mapping=mapping)
+
+
+def test_pairs_are_taken_from_a_folder_too(catalogue: Catalogue, tmp_path: Path) -> None:
+    (tmp_path / "compatibilities.csv").write_text("IN_22,GI_1,GI_2\n")
+    (report,) = catalogue.import_file(tmp_path, mapping="mgdb-compatibility", source=SOURCE)
+    assert report.added == 2
+
+
+@pytest.mark.parametrize("name", ["p.xlsx", "p.json", "folder"])
+def test_import_csv_takes_csv_alone(catalogue: Catalogue, tmp_path: Path, name: str) -> None:
+    (tmp_path / "folder").mkdir()
+    with pytest.raises(InvalidRows, match="is no CSV file; import_file takes"):
+        catalogue.import_csv(tmp_path / name)
 
 
 def test_replace_restores_an_exported_catalogue(catalogue: Catalogue, tmp_path: Path, write_csv: Write) -> None:
