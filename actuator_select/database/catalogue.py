@@ -8,10 +8,12 @@ from typing import TYPE_CHECKING
 
 from actuator_select.database.changing import Edit, Removal, add_row, copy_row, edit_row, remove_row
 from actuator_select.database.connection import database_url, make_engine, prepare, writing
-from actuator_select.database.importing import ImportReport, OnRows, Progress, Terms, tables_of, take_in
+from actuator_select.database.importing import ImportReport, OnRows, Progress, Terms, take_in
 from actuator_select.database.kinds import find_kind
+from actuator_select.database.opening import tables_of
 from actuator_select.database.queries import Row, fetch_row
 from actuator_select.database.reader import ReadableCatalogue
+from actuator_select.errors import InvalidRows
 
 if TYPE_CHECKING:
     from actuator_select.database.mapping import Mapping as ColumnMapping
@@ -125,10 +127,12 @@ class Catalogue(ReadableCatalogue):
         Raises
         ------
         InvalidRows
-            With everything that is wrong: place, value, what was expected, remedy.
+            With everything that is wrong: place, value, what was expected, remedy; also if it is no CSV file.
         UnknownName
             If the kind is unknown.
         """
+        if Path(path).is_dir() or Path(path).suffix.casefold() in {".xlsx", ".json"}:
+            raise InvalidRows(f"{path} is no CSV file; import_file takes workbooks, JSON files and folders")
         (report,) = self.import_file(path, kind, dry_run=dry_run, update=update, progress=progress, on_rows=on_rows)
         return report
 

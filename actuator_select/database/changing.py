@@ -13,8 +13,9 @@ from actuator_select.database.comparing import Difference, differences
 from actuator_select.database.fields import Kind
 from actuator_select.database.ingest import Plan, plan_rows, refuse, write_plan
 from actuator_select.database.kinds import KINDS
-from actuator_select.database.naming import first_of, locate
+from actuator_select.database.naming import locate
 from actuator_select.database.records import Record, read_record
+from actuator_select.database.suggestions import first_of
 from actuator_select.errors import Problem, RowInUse
 
 Given = Mapping[str, object]

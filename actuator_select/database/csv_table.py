@@ -14,6 +14,7 @@ from actuator_select.database.tables import Line, Table
 from actuator_select.errors import InvalidRows, Problem
 
 _LARGEST_CELL = 1_000_000  # characters; beyond it a quotation mark is missing rather than a note long
+_SIGNS = {",": "comma", ";": "semicolon", "\t": "tabulator"}
 _NEEDS_QUOTES = re.compile(r'[",\r\n]|^\s|\s$')
 _BLOCK = 1 << 20  # bytes that are looked at together
 
@@ -80,6 +81,7 @@ def read_csv(path: Path, form: CsvFormat | None = None) -> Table:
         problems.append(_problem(path.name, number, f"'{cells[0]}'", "cells separated by commas", SEMICOLONS))
         number, cells = next(_records(opened, path.name, form, delimiter))
     below = partial(_below, partial(_records, opened, path.name, form, delimiter), number if form.header else 0)
+    sign = _SIGNS.get(delimiter, delimiter)
     return Table(
         name=path.name,
         title=path.stem,
@@ -87,6 +89,7 @@ def read_csv(path: Path, form: CsvFormat | None = None) -> Table:
         read_lines=below,
         length=length - (number if form.header else 0),
         numbered_from=number if form.header else 0,
+        on_torn=f"is a {sign} missing or too many? A cell that holds a {sign} stands in double quotes",
         problems=tuple(problems),
     )
 

@@ -174,6 +174,11 @@ class Kind:
         return tuple(field for field in self.fields if field.required)
 
     @property
+    def unique(self) -> tuple[Field, ...]:
+        """Fields besides the id in which no two rows hold the same."""
+        return tuple(field for field in self.fields if field.unique)
+
+    @property
     def references(self) -> tuple[Field, ...]:
         """Fields that hold the id of another row."""
         return tuple(field for field in self.fields if field.references)

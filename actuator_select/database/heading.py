@@ -136,7 +136,7 @@ def _constants(
 
 
 def _own_columns(kind: Kind, table: Table, mapping: "ColumnMapping | None") -> tuple[_Targets, list[Problem]]:
-    spellings = kind.spellings
+    spellings = table.spellings(kind)
     targets: _Targets = []
     problems = []
     met = set()

@@ -5,7 +5,7 @@ from what the program ships; where that alone changes, as when an upgrade no lon
 recorded.
 """
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from datetime import UTC, datetime
 
@@ -63,10 +63,20 @@ def add_rows(
 
 
 def change_rows(
-    connection: sa.Connection, kind: Kind, rows: Sequence[queries.Row], *, by: str, origin: str | None = None
+    connection: sa.Connection,
+    kind: Kind,
+    rows: Sequence[queries.Row],
+    *,
+    by: str,
+    origin: str | None = None,
+    before: Mapping[str, queries.Row] | None = None,
 ) -> None:
-    """Replace the rows that have these ids, and record every filled column that differs; `by` and `origin` as above."""
-    before = queries.fetch_own_rows(connection, kind, [str(row["id"]) for row in rows])
+    """Replace the rows that have these ids, and record every filled column that differs; `by` and `origin` as above.
+
+    `before` has what the rows said, by id, where the catalogue does not say it any more.
+    """
+    if before is None:
+        before = queries.fetch_own_rows(connection, kind, [str(row["id"]) for row in rows])
     queries.update_rows(connection, kind, _with_origin(connection, kind, rows, origin))
     now = _now()
     _record(

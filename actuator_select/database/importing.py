@@ -1,26 +1,23 @@
 """Taking in whole files: in one transaction, portion by portion, so that memory stays flat; all of it or nothing."""
 
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from itertools import islice
-from pathlib import Path
 from typing import TYPE_CHECKING, TypeAlias
 
 import sqlalchemy as sa
 
 from actuator_select.database import history, queries
-from actuator_select.database.csv_table import SEMICOLONS, read_csv
+from actuator_select.database.csv_table import SEMICOLONS
 from actuator_select.database.fields import Kind
 from actuator_select.database.heading import Heading, read_heading
 from actuator_select.database.ingest import in_order, plan_rows, write_plan
-from actuator_select.database.kinds import KINDS, find_kind
-from actuator_select.database.naming import first_of
 from actuator_select.database.queries import Row
-from actuator_select.database.records import Record, iter_records
-from actuator_select.database.seen import Seen, remembering
-from actuator_select.database.tables import Table, kind_named, kind_of, one_to_many
-from actuator_select.errors import InvalidRows, Problem, UnknownName, did_you_mean
+from actuator_select.database.records import Record, iter_records, places_of
+from actuator_select.database.seen import Purpose, Seen, remembering
+from actuator_select.database.suggestions import first_of
+from actuator_select.database.tables import Table
+from actuator_select.errors import InvalidRows, Problem
 
 if TYPE_CHECKING:
     from actuator_select.database.mapping import Mapping
@@ -34,7 +31,6 @@ OnRows: TypeAlias = Callable[[str, Sequence[Row]], None]
 _PORTION = 1000  # rows that are held in memory
 _LINES_PER_REPORT = 100  # of progress
 _MOST_PROBLEMS = 2000  # nobody reads more
-_WANTED = "id of replacement"  # under which ids are remembered that stay in a catalogue
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -82,66 +78,6 @@ class Terms:
     source: str | None = None
     update: bool = False
     replace: bool = False
-
-
-@contextmanager
-def tables_of(
-    path: Path, kind: str | None, mapping: "Mapping | None" = None, sheet: str | None = None
-) -> Iterator[list[tuple[Kind, Table]]]:
-    """Open a file or a folder while its tables are read.
-
-    Parameters
-    ----------
-    path : Path
-        A CSV, XLSX or JSON file, or a folder of CSV files that are named after kinds.
-    kind : str or None
-        Kind of the rows, or which of several to take; told by names and headers by default.
-    mapping : Mapping, optional
-        What tells the kind and how CSV is written.
-    sheet : str, optional
-        Of a workbook.
-
-    Yields
-    ------
-    list of (Kind, Table)
-        In an order in which references point backwards.
-
-    Raises
-    ------
-    InvalidRows
-        If it cannot be read.
-    UnknownName
-        If a kind or a sheet does not exist or cannot be told.
-    """
-    wanted = None if kind is None else find_kind(kind).name
-    form = None
-    if mapping is not None:
-        form, mapped = mapping.csv_format, find_kind(mapping.kind).name
-        if wanted not in {None, mapped}:
-            raise UnknownName(f"the mapping {mapping.name} is for {mapped}, not {wanted}; drop --kind, or take another")
-        wanted = mapped
-    suffix = path.suffix.casefold()
-    if sheet is not None and suffix != ".xlsx":
-        raise UnknownName(f"{path.name} is no XLSX workbook and has no sheet {sheet!r}; drop --sheet")
-    if suffix == ".xlsx":
-        from actuator_select.database.xlsx_table import xlsx_tables
-
-        with xlsx_tables(path) as tables:
-            chosen = tables if sheet is None else [_sheet(tables, sheet, path)]
-            yield _with_kinds(chosen, path, wanted, is_stated=sheet is not None)
-    elif suffix == ".json":
-        from actuator_select.database.json_table import json_tables
-
-        yield _with_kinds(json_tables(path), path, wanted)
-    elif path.is_dir():
-        named = {one: path / f"{one}.csv" for one in KINDS}
-        files = [file for one, file in named.items() if file.is_file() and wanted in {None, one}]
-        yield _with_kinds([read_csv(file, form) for file in files], path, wanted)
-    else:
-        table = read_csv(path, form)
-        if mapping is not None and mapping.layout == "one-to-many":
-            table = one_to_many(table)
-        yield [(find_kind(wanted or kind_of(table)), table)]
 
 
 def take_in(
@@ -211,10 +147,11 @@ class _Intake:
         heading, problems = read_heading(kind, table, self._terms.mapping, self._terms.source)
         self._object(problems)
         removed = 0
-        if self._terms.replace and any(field.unique for field in kind.fields):
-            # What goes has to go first: its names may be given to others.
-            self._note_ids(heading)
-            removed = self._remove(kind, self._seen.other_ids(kind, _WANTED))
+        if kind.unique and (self._terms.replace or self._terms.update):
+            # What goes has to go first, and what gets another name to be known: their names may be given to others.
+            is_whole = self._note_coming(heading)
+            if self._terms.replace and is_whole:
+                removed = self._remove(kind, self._seen.other_ids(Purpose.COMING, kind))
         report = ImportReport(kind=kind.name, removed=removed)
         lines = self._counted(heading)
         while self._can_go_on and (portion := list(islice(lines, _PORTION))):
@@ -224,7 +161,7 @@ class _Intake:
 
     def remove_others(self, kind: Kind) -> int:
         """Remove the rows of a kind that were not in the file; how many there were."""
-        return self._remove(kind, self._seen.other_ids(kind, "id"))
+        return self._remove(kind, self._seen.other_ids(Purpose.PLACE, kind))
 
     def refuse(self, name: str) -> None:
         """Raise `InvalidRows` if anything was objected to."""
@@ -259,7 +196,7 @@ class _Intake:
         )
         self._object(in_order([*(problem for _, problems in portion for problem in problems), *more]))
         if not self._problems:
-            write_plan(self._connection, heading.kind, plan, by=self._terms.by)
+            write_plan(self._connection, heading.kind, plan, by=self._terms.by, seen=self._seen)
             if self._on_rows is not None:
                 self._on_rows(heading.kind.name, (*plan.added, *plan.updated))
         return replace(
@@ -291,12 +228,26 @@ class _Intake:
             self._progress(done, self._total)
         return done
 
-    def _note_ids(self, heading: Heading) -> None:
+    def _note_coming(self, heading: Heading) -> bool:
+        """Note which ids and unique texts are to come; whether the file could be read to its end.
+
+        What is wrong is told when the rows are taken in.
+        """
+        kind = heading.kind
         records = (record for _, record, _ in iter_records(heading) if record is not None)
-        while portion := list(islice(records, _PORTION)):
-            ids = {str(one.given["id"]): one.place for one in portion if one.given.get("id") is not None}
-            known = self._seen.places(heading.kind, _WANTED, ids)
-            self._seen.note(heading.kind, _WANTED, {one: place for one, place in ids.items() if one not in known})
+        try:
+            while portion := list(islice(records, _PORTION)):
+                rows = {row_id: record for _, row_id, record in places_of(portion, "id")}
+                known = self._seen.recall(Purpose.COMING, kind, "id", rows)
+                new = [record for row_id, record in rows.items() if row_id not in known]
+                for field in ("id", *(one.name for one in kind.unique)):
+                    said = {str(one.given["id"]): value for _, value, one in places_of(new, field)}
+                    self._seen.note(Purpose.COMING, kind, field, said)
+        except InvalidRows as error:
+            if not error.problems:
+                raise
+            return False
+        return True
 
     def _remove(self, kind: Kind, ids: Sequence[str]) -> int:
         users: dict[str, list[str]] = {}
@@ -330,30 +281,3 @@ def _with_decimal_comma(problems: list[Problem]) -> list[Problem]:
         '[csv], then delimiter = ";" and decimal = ","'
     )
     return [replace(one, remedy=remedy) if one.remedy == SEMICOLONS else one for one in problems]
-
-
-def _with_kinds(
-    tables: Sequence[Table], path: Path, wanted: str | None, *, is_stated: bool = False
-) -> list[tuple[Kind, Table]]:
-    """Tables and their kinds, in an order in which references point backwards; others are passed over."""
-    if wanted is not None and len(tables) == 1 and (is_stated or kind_named(tables[0].title) in {None, wanted}):
-        return [(KINDS[wanted], tables[0])]
-    named = [(KINDS[name], table) for table in tables if (name := kind_named(table.title))]
-    if wanted is None and not named and len(tables) == 1:
-        return [(KINDS[kind_of(tables[0])], tables[0])]
-    found = [(kind, table) for kind, table in named if wanted in {None, kind.name}]
-    if not found:
-        has = f"; it has {', '.join(table.title for table in tables)}" if tables else " or is empty"
-        asked = wanted or "a kind of row, such as motors"
-        raise InvalidRows(f"{path} has no part named {asked}{has}; name one so, or state --sheet and --kind")
-    names = [kind.name for kind, _ in found]
-    if twice := next((name for name in names if names.count(name) > 1), None):
-        raise InvalidRows(f"{path} has several parts for {twice}; state one with --sheet")
-    return sorted(found, key=lambda one: list(KINDS).index(one[0].name))
-
-
-def _sheet(tables: Sequence[Table], sheet: str, path: Path) -> Table:
-    for table in tables:
-        if table.title == sheet:
-            return table
-    raise UnknownName(f"{path.name} has no sheet {sheet!r}; {did_you_mean(sheet, [one.title for one in tables])}")

@@ -1,7 +1,7 @@
 """From records to rows of the database: all or nothing, and every objection at once."""
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import sqlalchemy as sa
@@ -11,12 +11,10 @@ from actuator_select.database.cells import check_row, quoted, write_value
 from actuator_select.database.content import row_digest
 from actuator_select.database.fields import Field, Kind
 from actuator_select.database.kinds import KINDS
-from actuator_select.database.records import Record, places_of, read_record, read_records
-from actuator_select.database.seen import Seen
+from actuator_select.database.records import Record, places_of
+from actuator_select.database.seen import Purpose, Seen
 from actuator_select.database.suggestions import suggestion
 from actuator_select.errors import InvalidRows, Problem
-
-__all__ = ["Plan", "Record", "in_order", "plan_rows", "read_record", "read_records", "refuse", "write_plan"]
 
 _COMPARED_NAMES = 50_000  # pairs; comparing them takes about a second
 
@@ -31,11 +29,18 @@ class Plan:
         Complete rows to be written.
     unchanged : int
         How many rows are there already, equal.
+    before : mapping of str to row
+        What the rows that are updated said before, by id.
+    giving_up : mapping of str to mapping of str to str
+        By unique column: ids of rows that hold what a planned row is to hold, and get something else in the same
+        import, with what they hold.
     """
 
     added: tuple[queries.Row, ...]
     updated: tuple[queries.Row, ...]
     unchanged: int
+    before: Mapping[str, queries.Row]
+    giving_up: Mapping[str, Mapping[str, str]]
 
 
 def plan_rows(
@@ -71,7 +76,7 @@ def plan_rows(
     """
     repeated = _repeated(kind, "id", records, seen)
     problems = list(repeated.values())
-    existing = queries.fetch_own_rows(connection, kind, [row_id for _, row_id, _ in places_of(records, "id")])
+    existing = _own_rows(connection, kind, records, seen)
     blank: queries.Row = dict.fromkeys((field.name for field in kind.fields), None)
     added: list[queries.Row] = []
     updated: list[queries.Row] = []
@@ -88,12 +93,15 @@ def plan_rows(
         problems += _row_problems(kind, record, row)
     for field in kind.references:
         problems += _unknown_references(connection, field, records, seen)
-    for field in kind.fields:
-        if field.unique:
-            twice = _repeated(kind, field.name, records, seen)
-            problems += [*twice.values(), *_taken(connection, kind, field.name, records, twice)]
-    unchanged = len(records) - len(added) - len(updated)
-    return Plan(added=tuple(added), updated=tuple(updated), unchanged=unchanged), problems
+    objections, giving_up = _unique_fields(connection, kind, records, replace=replace, seen=seen)
+    plan = Plan(
+        added=tuple(added),
+        updated=tuple(updated),
+        unchanged=len(records) - len(added) - len(updated),
+        before=existing,
+        giving_up=giving_up,
+    )
+    return plan, [*problems, *objections]
 
 
 def refuse(heading: str, problems: Sequence[Problem]) -> None:
@@ -107,17 +115,34 @@ def in_order(problems: Sequence[Problem]) -> list[Problem]:
     return sorted(dict.fromkeys(problems), key=_line)
 
 
-def write_plan(connection: sa.Connection, kind: Kind, plan: Plan, *, by: str) -> None:
-    """Write what was planned; `by` says by what, for the history."""
+def write_plan(connection: sa.Connection, kind: Kind, plan: Plan, *, by: str, seen: Seen | None = None) -> None:
+    """Write what was planned; `by` says by what, for the history, `seen` is what the plan was made with."""
+    for column, held in plan.giving_up.items():
+        # Until their own turn comes they hold what nobody can write: a control character and their id.
+        queries.update_texts(connection, kind, column, {row_id: f"\x1f{row_id}" for row_id in held})
+        if seen is not None:
+            seen.note(Purpose.FORMER, kind, column, held)
     history.add_rows(connection, kind, plan.added, by=by)
-    history.change_rows(connection, kind, plan.updated, by=by)
+    history.change_rows(connection, kind, plan.updated, by=by, before=plan.before)
+
+
+def _own_rows(
+    connection: sa.Connection, kind: Kind, records: Sequence[Record], seen: Seen | None
+) -> dict[str, queries.Row]:
+    """Rows of the catalogue that have the records' ids, as they were before the import."""
+    rows = queries.fetch_own_rows(connection, kind, [row_id for _, row_id, _ in places_of(records, "id")])
+    if seen is not None:
+        for field in kind.unique:
+            for row_id, former in seen.recall(Purpose.FORMER, kind, field.name, rows).items():
+                rows[row_id][field.name] = former
+    return rows
 
 
 def _row_problems(kind: Kind, record: Record, row: queries.Row) -> list[Problem]:
     problems = []
     for column, refused in check_row(kind, row):
         group = next((names for names in kind.any_of if column in names), (column,))
-        if any(record.was_refused(name) for name in group):
+        if any(name in record.refused for name in group):
             continue
         if record.header and kind.field(column).required and column not in record.written:
             # Told once, not for every line.
@@ -135,7 +160,8 @@ def _line(problem: Problem) -> int:
 
 def _repeated(kind: Kind, column: str, records: Sequence[Record], seen: Seen | None) -> dict[int, Problem]:
     """Objections to values that stood before, by the index of the record that repeats them."""
-    met = {} if seen is None else seen.places(kind, column, (value for _, value, _ in places_of(records, column)))
+    values = (value for _, value, _ in places_of(records, column))
+    met = {} if seen is None else seen.recall(Purpose.PLACE, kind, column, values)
     new: dict[str, str] = {}
     problems = {}
     for index, value, record in places_of(records, column):
@@ -147,15 +173,40 @@ def _repeated(kind: Kind, column: str, records: Sequence[Record], seen: Seen | N
         else:
             new[value] = record.place
     if seen is not None:
-        seen.note(kind, column, new)
+        seen.note(Purpose.PLACE, kind, column, new)
     return problems
 
 
+def _unique_fields(
+    connection: sa.Connection, kind: Kind, records: Sequence[Record], *, replace: bool, seen: Seen | None
+) -> tuple[list[Problem], dict[str, dict[str, str]]]:
+    """Objections to what two rows would hold, and by field the rows that give up what they hold, with that."""
+    problems: list[Problem] = []
+    giving_up = {}
+    for field in kind.unique:
+        twice = _repeated(kind, field.name, records, seen)
+        found = [one for one in places_of(records, field.name) if one[0] not in twice]
+        holders = queries.fetch_holders(connection, kind, field.name, (value for _, value, _ in found))
+        coming = {} if seen is None else seen.recall(Purpose.COMING, kind, field.name, holders.values())
+        if replace:
+            # Rows that do not come are removed; where they are not yet, something else was objected to.
+            holders = {value: holder for value, holder in holders.items() if holder in coming}
+        giving_up[field.name] = {
+            holder: value for value, holder in holders.items() if coming.get(holder, value) != value
+        }
+        taken = _taken(kind, field.name, found, holders, giving_up[field.name])
+        problems += [*twice.values(), *taken]
+    return problems, giving_up
+
+
 def _taken(
-    connection: sa.Connection, kind: Kind, column: str, records: Sequence[Record], repeated: dict[int, Problem]
+    kind: Kind,
+    column: str,
+    found: Sequence[tuple[int, str, Record]],
+    holders: Mapping[str, str],
+    giving_up: Mapping[str, str],
 ) -> list[Problem]:
-    found = [one for one in places_of(records, column) if one[0] not in repeated]
-    holders = queries.fetch_holders(connection, kind, column, (value for _, value, _ in found))
+    """Objections to what other rows hold and do not give up."""
     return [
         Problem(
             place=record.at(column),
@@ -164,7 +215,7 @@ def _taken(
             remedy="choose another",
         )
         for _, value, record in found
-        if holders.get(value) not in {None, record.given.get("id")}
+        if holders.get(value) not in {None, record.given.get("id"), *giving_up}
     ]
 
 
@@ -189,7 +240,7 @@ def _unknown_references(
     missing = wanted - set(queries.fetch_holders(connection, other, "id", wanted))
     if seen is not None:
         # Once anything is refused rows are no longer written, but they are known to come.
-        missing -= set(seen.places(other, "id", missing))
+        missing -= set(seen.recall(Purpose.PLACE, other, "id", missing))
     if not missing:
         return []
     remedies = _remedies(connection, sorted(missing), other)

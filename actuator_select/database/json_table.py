@@ -3,17 +3,20 @@
 import json
 from collections.abc import Iterator, Sequence
 from functools import partial
+from math import inf
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from actuator_select.database.cells import Reader, Refused, Value, quoted
+from actuator_select.database.cells import UNLIMITED, Reader, Refused, Value, is_number, quoted, reader_of
+from actuator_select.database.export import JSON_FORMAT, JSON_FORMAT_VERSION
 from actuator_select.database.fields import Field
 from actuator_select.database.kinds import KINDS
-from actuator_select.database.opc import opc_name
 from actuator_select.database.tables import ABSENT, Line, Table, kind_named
 from actuator_select.errors import InvalidRows, did_you_mean
 
-FORMAT, FORMAT_VERSION = "actuator-select catalogue", 1
+if TYPE_CHECKING:
+    from actuator_select.database.unit_conversion import Conversion
+
 _NOT_LISTS = {"format", "format_version", "fingerprint"}
 
 
@@ -28,7 +31,7 @@ def json_tables(path: Path) -> list[Table]:
     Returns
     -------
     list of Table
-        One for each list; names of OPC 40400-1 become the catalogue's.
+        One for each list; names of OPC 40400-1 are known beside the catalogue's.
 
     Raises
     ------
@@ -40,12 +43,14 @@ def json_tables(path: Path) -> list[Table]:
         content = {path.stem: content}
     if not isinstance(content, dict):
         raise InvalidRows(f'{path.name} is no catalogue; expected {{"motors": [{{…}}], …}} or a list of rows')
-    if content.get("format", FORMAT) != FORMAT:
-        raise InvalidRows(f"{path.name} states the format {content['format']!r}, expected {FORMAT!r}")
-    if content.get("format_version", FORMAT_VERSION) != FORMAT_VERSION:
+    if content.get("format", JSON_FORMAT) != JSON_FORMAT:
+        raise InvalidRows(f"{path.name} states the format {content['format']!r}, expected {JSON_FORMAT!r}")
+    if content.get("format_version", JSON_FORMAT_VERSION) != JSON_FORMAT_VERSION:
         version = content["format_version"]
-        raise InvalidRows(f"{path.name} states format_version {version!r}, expected {FORMAT_VERSION}; a newer "
-                          "actuator-select may read it")  # fmt: skip
+        raise InvalidRows(
+            f"{path.name} states format_version {version!r}, expected {JSON_FORMAT_VERSION}; a newer actuator-select "
+            "may read it"
+        )
     lists = {key: rows for key, rows in content.items() if key not in _NOT_LISTS}
     for key, rows in lists.items():
         if len(lists) > 1 and kind_named(key) is None:
@@ -79,18 +84,17 @@ def _refuse_constant(word: str) -> None:
 
 
 def _table(name: str, key: str, rows: Sequence[dict[str, object]]) -> Table:
-    kind = KINDS.get(kind_named(key) or "")
-    own = {} if kind is None else {opc_name(kind, field.name): field.name for field in kind.fields}
     keys = list(dict.fromkeys(one for row in rows for one in row))
     return Table(
         name=f"{name}, {key}",
         title=key,
-        header=tuple(own.get(one, one) for one in keys),
+        header=tuple(keys),
         read_lines=partial(_lines, rows, keys),
         length=len(rows),
         numbered_from=0,
         unit_of_lines="row",
         adapt=_adapt,
+        knows_opc=True,
     )
 
 
@@ -103,23 +107,41 @@ def _adapt(field: Field, read: Reader) -> Reader:
     """Read a figure also with its unit: ``{"Value": 5060, "EngineeringUnits": "rpm"}``."""
 
     def read_cell(cell: object) -> Value:
-        if not isinstance(cell, dict):
-            return read(cell)
-        if field.is_text or set(cell) != {"Value", "EngineeringUnits"}:
-            raise Refused(field.expected, 'write it plainly, or as {"Value": 5060, "EngineeringUnits": "rpm"}')
-        value, unit = cell["Value"], cell["EngineeringUnits"]
-        if unit == field.unit or isinstance(value, bool) or not isinstance(value, int | float):
-            return read(value)
-        return _converted(field, value, unit, read)
+        return _with_unit(field, cell, read) if isinstance(cell, dict) else read(cell)
 
     return read_cell
 
 
-def _converted(field: Field, value: float, unit: object, read: Reader) -> Value:
+def _with_unit(field: Field, cell: dict[str, object], read: Reader) -> Value:
+    """A figure in the unit that stands beside it, which a mapping's does not change again."""
+    value, unit = cell.get("Value"), cell.get("EngineeringUnits")
+    if field.is_text or set(cell) != {"Value", "EngineeringUnits"} or not isinstance(unit, str):
+        raise Refused(field.expected, 'write it plainly, or as {"Value": 5060, "EngineeringUnits": "rpm"}')
+    rule = _rule(field, unit)
+    if isinstance(value, bool | int | float):
+        number = None if isinstance(value, bool) else repr(value)
+    else:
+        number = value.strip() if isinstance(value, str) and is_number(value.strip()) else None
+    if number is not None:
+        converted = number if rule is None else rule.apply(number)
+        if converted == inf:
+            raise Refused(field.expected, "this is more than a number can hold")
+        return reader_of(field)(converted)
+    if value is None or value == "" or (isinstance(value, str) and value.strip().casefold() == UNLIMITED):
+        return reader_of(field)(value)
+    figure = read(value)  # a word of a mapping for an unknown or an unlimited figure has no unit
+    if figure is None or figure == inf:
+        return figure
+    raise Refused(field.expected, f"a figure with a unit is a number, such as 5060, or the word {UNLIMITED}")
+
+
+def _rule(field: Field, unit: str) -> "Conversion | None":
     from actuator_select.database.unit_conversion import UnitRefused, conversion
 
+    if unit.strip() == field.unit:
+        return None
     try:
-        rule = conversion(str(unit), field)
+        rule = conversion(unit, field)
     except UnitRefused as refused:
         raise Refused(field.expected, f"{quoted(unit)} {refused}") from refused
-    return read(value) if rule.changes_nothing else read(rule.apply(repr(value)))
+    return None if rule.changes_nothing else rule

@@ -7,9 +7,8 @@ foreign file has the catalogue's own columns, and only its writing is foreign.
 import codecs
 import re
 import tomllib
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from datetime import date
-from difflib import get_close_matches
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
@@ -20,11 +19,13 @@ from actuator_select.database.csv_table import CsvFormat
 from actuator_select.database.fields import Field as Column
 from actuator_select.database.fields import Kind
 from actuator_select.database.kinds import KINDS, find_kind
+from actuator_select.database.suggestions import suggestion
 from actuator_select.database.unit_conversion import UnitRefused, conversion
 from actuator_select.errors import InvalidRows, Problem, UnknownName, did_you_mean
 
 _FOLDER = Path(__file__).resolve().parents[1] / "mappings"
-_PLACEHOLDER = re.compile(r"\{(\w+)\}")
+PLACEHOLDER = re.compile(r"\{(\w+)\}")
+"""One of our columns in the template of an id."""
 
 
 class _Strict(BaseModel):
@@ -102,7 +103,7 @@ class Mapping(_Strict):
     description : str
         For people.
     layout : {"table", "one-to-many"}
-        One row per line, or a line of a key and others, each of which makes a row with the columns 1 and 2.
+        One row per line, or a line of a key and others, each of which makes a row with the columns 1 and 2 (CSV only).
     id_from : str
         Template of the id, with our columns in braces, where no foreign column holds one.
     ignore_others : bool
@@ -136,9 +137,14 @@ class Mapping(_Strict):
         return CsvFormat(delimiter=self.csv.delimiter, encoding=encoding, header=self.csv.header)
 
     @property
+    def is_for_any_format(self) -> bool:
+        """Whether it says nothing that only CSV files can be."""
+        return self.csv.header and self.layout == "table"
+
+    @property
     def id_columns(self) -> list[str]:
         """Our columns that the id is made from."""
-        return _PLACEHOLDER.findall(self.id_from)
+        return PLACEHOLDER.findall(self.id_from)
 
 
 def shipped_mappings() -> dict[str, Path]:
@@ -261,7 +267,7 @@ def _column_problems(mapping: Mapping, kind: Kind) -> Iterator[Problem]:
     for one in mapping.id_columns:
         if one not in {column.name for column in kind.fields if column.is_text}:
             yield _no_column(f"{mapping.name}, id_from", one, kind)
-    if mapping.id_from and ("id" in filled or not mapping.id_columns):
+    if mapping.id_from and ("id" in filled or "id" in mapping.constants or not mapping.id_columns):
         expected = "columns in braces, and no other column or constant that fills id"
         yield Problem(place=f"{mapping.name}, id_from", value=quoted(mapping.id_from), expected=expected)
 
@@ -294,6 +300,7 @@ def _filling_problems(place: str, filling: Filling, column: Column) -> Iterator[
 
 def _constant_problems(mapping: Mapping, kind: Kind) -> Iterator[Problem]:
     filled = {one.field for fillings in mapping.columns.values() for one in fillings}
+    stated: dict[str, str] = {}
     for name, value in mapping.constants.items():
         place = f"{mapping.name}, constants.{name}"
         column = kind.spellings.get(name)
@@ -301,7 +308,11 @@ def _constant_problems(mapping: Mapping, kind: Kind) -> Iterator[Problem]:
             yield _no_column(place, name, kind)
         elif filled & {column.name, *column.aliases}:
             yield Problem(place=place, value=quoted(value), expected="a field that no column fills")
+        elif column.name in stated:
+            expected = f"each field once; {stated[column.name]!r} fills it already"
+            yield Problem(place=place, value=quoted(value), expected=expected)
         else:
+            stated[column.name] = name
             try:
                 read_value(column, value)
             except Refused as refused:
@@ -309,6 +320,5 @@ def _constant_problems(mapping: Mapping, kind: Kind) -> Iterator[Problem]:
 
 
 def _no_column(place: str, name: str, kind: Kind) -> Problem:
-    near: Sequence[str] = get_close_matches(name, kind.spellings, n=1)
-    remedy = f"did you mean {near[0]!r}?" if near else f"`actuator-select catalog fields {kind.name}` lists them"
+    remedy = suggestion(name, list(kind.spellings), f"catalog fields {kind.name}")
     return Problem(place=place, value=quoted(name), expected=f"a column of {kind.name}", remedy=remedy)

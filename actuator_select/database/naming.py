@@ -10,8 +10,6 @@ from actuator_select.database.kinds import KINDS, find_kind
 from actuator_select.database.suggestions import suggestion
 from actuator_select.errors import UnknownName
 
-_NAMED_ROWS = 3  # of more a message tells the number
-
 
 def locate(
     connection: sa.Connection, row_id: str, kind: str | None = None, also: Sequence[str] = ()
@@ -62,9 +60,3 @@ def locate_ever(connection: sa.Connection, row_id: str, kind: str | None = None)
         if rows := queries.fetch_past_holders(connection, row_id, found):
             return rows
         raise
-
-
-def first_of(names: Sequence[str]) -> str:
-    """The first few names, and how many more there are."""
-    more = len(names) - _NAMED_ROWS
-    return ", ".join(names[:_NAMED_ROWS]) + (f" and {more} more" if more > 0 else "")

@@ -181,6 +181,14 @@ def update_rows(connection: sa.Connection, kind: Kind, rows: Sequence[Mapping[st
         connection.execute(statement, [value | {"row_id": value["id"]} for value in values])
 
 
+def update_texts(connection: sa.Connection, kind: Kind, column: str, texts: Mapping[str, str]) -> None:
+    """Set one column of the rows that have these ids."""
+    if texts:
+        table = TABLES[kind.name]
+        statement = table.update().where(table.c.id == sa.bindparam("row_id")).values({column: sa.bindparam("text")})
+        connection.execute(statement, [{"row_id": row_id, "text": text} for row_id, text in texts.items()])
+
+
 def delete_rows(connection: sa.Connection, kind: Kind, ids: Sequence[str]) -> None:
     """Remove the rows that have these ids."""
     if ids:

@@ -39,10 +39,6 @@ class Record:
     given: Mapping[str, Value]
     refused: Collection[str] = ()
 
-    def was_refused(self, column: str) -> bool:
-        """Whether something was written there that cannot be taken."""
-        return column in self.refused
-
 
 def iter_records(heading: Heading) -> Iterator[tuple[int, Record | None, list[Problem]]]:
     """Read a table line by line.
@@ -140,10 +136,17 @@ def read_record(kind: Kind, values: Mapping[str, object], prefix: str = "") -> t
         The row, without refused values, and what is wrong.
     """
     spellings = kind.spellings
-    spelt = {spellings[name].name: name for name in values if name in spellings}
+    spelt = {spellings[name].name: name for name in reversed(list(values)) if name in spellings}
     problems = []
     given: dict[str, Value] = {}
     for name, value in values.items():
+        if name in spellings and spelt[spellings[name].name] != name:
+            # The first one stands, and the second is objected to.
+            remedy = f"it is {spellings[name].name} again"
+            problems.append(
+                Problem(place=f"{prefix}{name}", value=quoted(value), expected="each column once", remedy=remedy)
+            )
+            continue
         if name not in spellings:
             expected = f"a column of {kind.name}"
             remedy = suggestion(name, list(spellings), f"catalog fields {kind.name}")
@@ -175,7 +178,7 @@ def _torn(table: Table, number: int, cells: int) -> Problem:
         place=table.line_place(number),
         value=f"{cells} cells",
         expected=f"{len(table.header)} cells, as many as the header",
-        remedy="is a comma missing or too many? A cell that holds a comma stands in double quotes",
+        remedy=table.on_torn,
     )
 
 

@@ -17,8 +17,9 @@ from actuator_select.database.cells import check_row
 from actuator_select.database.content import row_digest
 from actuator_select.database.csv_table import read_csv
 from actuator_select.database.fields import Kind
-from actuator_select.database.ingest import read_records, refuse
+from actuator_select.database.ingest import refuse
 from actuator_select.database.kinds import KINDS
+from actuator_select.database.records import read_records
 
 DIGEST_STATE = "shipped_digest"
 _BY = f"rows shipped with actuator-select {__version__}"

@@ -5,8 +5,9 @@ from dataclasses import dataclass, field, replace
 from typing import TypeAlias
 
 from actuator_select.database.cells import Reader
-from actuator_select.database.fields import Field
+from actuator_select.database.fields import Field, Kind
 from actuator_select.database.kinds import KINDS
+from actuator_select.database.opc import opc_name
 from actuator_select.errors import Problem, UnknownName
 
 Line: TypeAlias = tuple[int, Sequence[object]]
@@ -40,6 +41,10 @@ class Table:
         Says what a cell is called in the file, from its line and the index of its column: ``cell B7``.
     adapt : callable or None
         Makes a reader of texts and numbers read what stands in the format's cells besides, such as dates.
+    on_torn : str
+        What to do with a line that has fewer or more cells than the header.
+    knows_opc : bool
+        Whether columns may also have their names of OPC 40400-1.
     problems : tuple of Problem
         What is wrong with the file as a whole although its lines can be read.
     """
@@ -53,6 +58,8 @@ class Table:
     unit_of_lines: str = "line"
     cell_name: Callable[[int, int], str] | None = None
     adapt: Callable[[Field, Reader], Reader] | None = None
+    on_torn: str = ""
+    knows_opc: bool = False
     problems: tuple[Problem, ...] = field(default=())
 
     @property
@@ -69,6 +76,12 @@ class Table:
         place = self.line_place(number) if self.cell_name is None else f"{self.name}, {self.cell_name(number, index)}"
         name = self.header[index]
         return f"{place}, column {name}" if name.isdecimal() else f"{place}, {name}"
+
+    def spellings(self, kind: Kind) -> dict[str, Field]:
+        """Columns of a kind by what they may be called in this table."""
+        if not self.knows_opc:
+            return kind.spellings
+        return {opc_name(kind, field.name): field for field in kind.fields} | kind.spellings
 
 
 def kind_named(title: str) -> str | None:
@@ -87,7 +100,7 @@ def kind_of(table: Table) -> str:
     """
     if named := kind_named(table.title):
         return named
-    fitting = [one.name for one in KINDS.values() if set(table.header) <= set(one.spellings)]
+    fitting = [one.name for one in KINDS.values() if set(table.header) <= set(table.spellings(one))]
     if len(fitting) != 1:
         raise UnknownName(
             f"cannot tell whether {table.name} holds {' or '.join(fitting or KINDS)}; state it with --kind"

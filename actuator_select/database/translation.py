@@ -3,17 +3,17 @@
 import hashlib
 import re
 from collections.abc import Callable, Mapping
-from decimal import Decimal
 from functools import partial
 from math import inf, isinf
 
 from actuator_select.database.cells import Reader, Refused, Value, is_number, quoted, reader_of, write_value
 from actuator_select.database.fields import Field
-from actuator_select.database.mapping import Filling
+from actuator_select.database.mapping import PLACEHOLDER, Filling
 from actuator_select.database.mapping import Mapping as ColumnMapping
 from actuator_select.database.schema import ID_LENGTH
 from actuator_select.database.unit_conversion import Conversion, conversion
 
+_ZERO = re.compile(r"[+-]?[0.]+([eE].*)?")
 _DIGEST_LENGTH = 8  # hexadecimal digits that keep shortened ids apart
 
 
@@ -84,7 +84,7 @@ def id_from(template: str, given: Mapping[str, Value]) -> str | None:
         missing = missing or value is None
         return str(value)
 
-    text = re.sub(r"\{(\w+)\}", fill, template)
+    text = PLACEHOLDER.sub(fill, template)
     return None if missing else made_id(text)
 
 
@@ -130,7 +130,7 @@ def _number_translator(field: Field, filling: Filling, mapping: ColumnMapping) -
             return plain(cell)
         if not is_number(text):
             return plain(text if isinstance(cell, str) else cell)
-        if filling.zero_is_unknown and Decimal(text) == 0:
+        if filling.zero_is_unknown and _ZERO.fullmatch(text):
             return None
         if rule is None or rule.changes_nothing:
             return plain(text)

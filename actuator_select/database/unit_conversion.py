@@ -5,6 +5,7 @@ gives the same figure everywhere. A figure in the column's own unit is not touch
 """
 
 import re
+from collections.abc import Callable
 from dataclasses import dataclass
 from decimal import Context, Decimal
 from functools import lru_cache
@@ -25,15 +26,19 @@ _DEFINITIONS = (
     "lb_in = force_pound * inch",
     "lb_ft = force_pound * foot",
     "Nms = newton * meter * second",
+    "Vs = volt * second",
+    "rev = revolution",
+    "lbm = pound",
     "gcm = gram * centimeter",
     "kgcm = kilogram * centimeter",
 )
-_SPELLINGS = (
+_SUPERSCRIPTS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-")
+_SPELLINGS: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
     # Powers first, because "oz in" is a torque and "oz in²" a moment of inertia.
-    (r"²", "**2"),
-    (r"³", "**3"),
-    (r"⁻¹", "**-1"),
+    (r"[⁰¹²³⁴⁵⁶⁷⁸⁹⁻]+", lambda power: f"**{power[0].translate(_SUPERSCRIPTS)}"),
     (r"\^", "**"),
+    # A number right before a unit is a factor of it: 10⁻⁷kgm², V/1000min⁻¹.
+    (r"(?<![\w.])(\d+(?:\.\d+)?(?:[eE][-+]?\d+)?)(?![eE][-+]?\d)(?=[A-Za-zµμΩ(])", r"\1*"),
     (r"[·⋅∙×•]", "*"),
     (r"µ|μ", "µ"),
     (r"Ω|Ω|\bOhms?\b", "ohm"),
@@ -45,8 +50,8 @@ _SPELLINGS = (
     (r"°\s?([CF])\b", r"deg\1"),
     (r"°", "deg"),
     (r"\b(?:ozf?)[-\s.*]?in\b(?!\*\*|\d)", "oz_in"),
-    (r"\b(?:lbf?[-\s.*]?in|in[-\s.*]?lbf?)\b(?!\*\*|\d)", "lb_in"),
-    (r"\b(?:lbf?[-\s.*]?ft|ft[-\s.*]?lbf?)\b(?!\*\*|\d)", "lb_ft"),
+    (r"\b(?:lb[fs]?[-\s.*]?in|in[-\s.*]?lb[fs]?)\b(?!\*\*|\d)", "lb_in"),
+    (r"\b(?:lb[fs]?[-\s.*]?ft|ft[-\s.*]?lb[fs]?)\b(?!\*\*|\d)", "lb_ft"),
     (r"\bozf\b", "force_ounce"),
     (r"\bN[-\s.*]?cm\b", "(newton*centimeter)"),
     (r"\bN[-\s.*]?mm\b", "(newton*millimeter)"),
@@ -56,9 +61,17 @@ _SPELLINGS = (
     (r"\s*(\*\*|\*|/|\(|\))\s*", r"\1"),
     (r"\s+", "*"),
 )
-_SEPARATE_POWERS = (("kgcm**2", "kilogram*centimeter**2"), ("gcm**2", "gram*centimeter**2"))
+_SEPARATE_POWERS = (
+    ("kgm**2", "kilogram*meter**2"),
+    ("kgcm**2", "kilogram*centimeter**2"),
+    ("kgmm**2", "kilogram*millimeter**2"),
+    ("gcm**2", "gram*centimeter**2"),
+    ("gmm**2", "gram*millimeter**2"),
+)
 _ANGLE = re.compile(r"rpm|rad|rev|deg(?![CF])|turn|arc|grad")
-_WITH_ANGLE = {"rpm", "rpm/V", "arcmin"}  # units of columns that say nothing without an angle
+# Units of columns that say nothing without an angle, and what may be written for them.
+_WITH_ANGLE = {"rpm": "rpm, rad/s or rev/s", "rpm/V": "rpm/V, rad/(s V) or rev/(s V)", "arcmin": "arcmin, deg or rad"}
+_COMMON = "write it as mNm, g cm², oz-in, rpm/V, lb or V s/rad"
 _PURE = {"", "%"}
 
 
@@ -91,7 +104,8 @@ class Conversion:
         """Convert a number as written; what is beyond all floats becomes infinite, as does one over zero."""
         if isinf(float(number)) or (self.reciprocal and float(number) == 0.0):
             return inf
-        scaled = _PRECISE.multiply(self.factor, Decimal(number))
+        # No decimal has the exponent that a cell can have; what a float makes zero of is zero.
+        scaled = _PRECISE.multiply(self.factor, Decimal(number) if float(number) else Decimal(0))
         result = _PRECISE.divide(Decimal(1), scaled) if self.reciprocal else _PRECISE.add(scaled, self.offset)
         return float(_ROUNDED.plus(result)) + 0.0
 
@@ -123,7 +137,7 @@ def conversion(unit: str, field: Field, *, reciprocal: bool = False) -> Conversi
     given, wanted = _quantity(unit), _quantity(field.unit)
     magnitude = Decimal(given.magnitude)
     if not magnitude.is_finite() or not _LEAST < magnitude < _GREATEST:
-        raise UnitRefused("is nothing to measure with; write it as mNm, g cm², oz-in, rpm/V, lb or V s/rad")
+        raise UnitRefused(f"is nothing to measure with; {_COMMON}")
     if field.unit == "°C":
         return _temperature(unit, field)
     factor = _factor(1 / given if reciprocal else given, wanted, unit, field, reciprocal=reciprocal)
@@ -164,9 +178,9 @@ def _quantity(unit: str) -> Any:  # noqa: ANN401 - pint's quantities have no sim
         quantity = _registry().Quantity(Decimal(getattr(parsed, "magnitude", parsed)), units)
         quantity.to_base_units()  # refuses what only a logarithm converts, such as dBm
     except pint.PintError as error:
-        raise UnitRefused(f"is no known unit; write it as mNm, g cm², oz-in, rpm/V, lb or V s/rad ({error})") from error
+        raise UnitRefused(f"is no known unit; {_COMMON} ({error})") from error
     except Exception as error:  # whatever pint's parser of expressions runs into
-        raise UnitRefused("cannot be read as a unit; write it as mNm, g cm², oz-in, rpm/V, lb or V s/rad") from error
+        raise UnitRefused(f"cannot be read as a unit; {_COMMON}") from error
     return quantity
 
 
@@ -191,10 +205,10 @@ def _check_angle(unit: str, field: Field) -> None:
     """Refuse what pint, to which an angle is a number, would take: 1/s for rpm, or an angle for an efficiency."""
     text = spelt_for_pint(unit)
     if re.search(r"\b[kM]?Hz\b|hertz", text):
-        raise UnitRefused("does not say whether revolutions or radians are counted; write rev/s or rad/s")
+        raise UnitRefused("does not say whether revolutions or radians are counted; write rev/s or rad/s in its place")
     has_angle = _ANGLE.search(text) is not None
     if field.unit in _WITH_ANGLE and not has_angle:
-        raise UnitRefused(f"does not say of which angle; the column is in {field.unit}, write rpm, rad/s or deg")
+        raise UnitRefused(f"does not say of which angle; write {_WITH_ANGLE[field.unit]}")
     if field.unit in _PURE and has_angle:
         raise UnitRefused(f"is an angle, the column's {field.unit or 'a pure number'} is not; check the column")
 

@@ -103,6 +103,7 @@ def _table(path: Path, sheet: "ReadOnlyWorksheet", formulas: "ReadOnlyWorksheet 
         unit_of_lines="row",
         cell_name=_cell_name,
         adapt=_adapt,
+        on_torn="empty the cells on the right of the named columns, or name theirs in the header",
     )
 
 

@@ -32,6 +32,11 @@ def own(catalogue: Catalogue) -> Catalogue:
     return catalogue
 
 
+def test_a_column_cannot_be_given_by_two_of_its_names(own: Catalogue) -> None:
+    told = refusals(lambda: own.edit("m", {"rated_torque_nm": 0.5, "nominal_torque_nm": 0.6}))
+    assert told == ["nominal_torque_nm: '0.6', expected each column once; it is rated_torque_nm again"]
+
+
 def changed(catalogue: Catalogue, row_id: str, values: dict[str, object]) -> list[tuple[str, object, object]]:
     done = catalogue.edit(row_id, values)
     return [(one.field.name, one.old, one.new) for one in done.differences]

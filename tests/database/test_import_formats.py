@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+import sqlalchemy as sa
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from openpyxl import Workbook
@@ -90,10 +91,19 @@ def test_failed_formulas_and_dates_in_place_of_numbers_are_named_by_their_cells(
     assert len(told) == 5
 
 
+def test_a_cell_beside_the_columns_is_told_in_the_words_of_a_spreadsheet(catalogue: Catalogue, tmp_path: Path) -> None:
+    rows = [["id", "source_id"], ["m1", SOURCE, "a remark"]]
+    (told,) = refusal(catalogue, write_xlsx(tmp_path / "p.xlsx", {"motors": rows}))
+    assert told.startswith(
+        "p.xlsx, sheet motors, row 2: 3 cells, expected 2 cells, as many as the header; empty the cells"
+    )
+    assert "comma" not in told
+
+
 def test_a_sheet_is_chosen_by_its_name(catalogue: Catalogue, tmp_path: Path) -> None:
     rows = [["id", "source_id"], ["m1", SOURCE]]
     path = write_xlsx(tmp_path / "p.xlsx", {"old": [["id"], ["m0"]], "new": rows})
-    with pytest.raises(InvalidRows, match="it has old, new; name one so, or state --sheet"):
+    with pytest.raises(InvalidRows, match="it has old, new; state one with --sheet"):
         catalogue.import_file(path)
     with pytest.raises(UnknownName, match="has no sheet 'newer'; did you mean 'new'"):
         catalogue.import_file(path, sheet="newer")
@@ -134,6 +144,74 @@ def test_json_is_read_with_its_units_and_names_of_opc(catalogue: Catalogue, tmp_
     row = catalogue.part("m1")[1]
     assert row["rated_speed_rpm"] == pytest.approx(954.929658551372, rel=1e-14)
     assert (row["peak_torque_nm"], row["rotor_inertia_g_cm2"], row["mass_kg"]) == (inf, 1.2, None)
+
+
+FIELDS_AND_CELLS = [
+    ({"Value": "125", "EngineeringUnits": "mNm"}, 0.125),
+    ({"Value": " 1.25e2 ", "EngineeringUnits": "mNm"}, 0.125),
+    ({"Value": 125, "EngineeringUnits": "mNm"}, 0.125),
+    ({"Value": "125", "EngineeringUnits": "N m"}, 125.0),
+    ({"Value": "125", "EngineeringUnits": "Nm"}, 125.0),
+    ({"Value": "unlimited", "EngineeringUnits": "mNm"}, inf),
+    ({"Value": None, "EngineeringUnits": "mNm"}, None),
+    ({"Value": "", "EngineeringUnits": "mNm"}, None),
+]
+
+
+@pytest.mark.parametrize(("cell", "expected"), FIELDS_AND_CELLS)
+def test_a_figure_of_json_is_in_the_unit_beside_it_also_as_a_text(
+    catalogue: Catalogue, tmp_path: Path, cell: object, expected: float | None
+) -> None:
+    rows = [{"id": "m", "peak_torque_nm": cell, "source_id": SOURCE}]
+    catalogue.import_file(write_json(tmp_path / "motors.json", rows))
+    assert catalogue.part("m")[1]["peak_torque_nm"] == expected
+
+
+def test_a_unit_beside_a_figure_outranks_the_mappings(catalogue: Catalogue, tmp_path: Path, write_csv: Write) -> None:
+    torques = ["125", {"Value": 125, "EngineeringUnits": "mNm"}, {"Value": 2, "EngineeringUnits": "N m"}]
+    torques += [{"Value": "none", "EngineeringUnits": "mNm"}, {"Value": "n/a", "EngineeringUnits": "mNm"}]
+    rows = [{"Name": f"m{number}", "Torque": torque} for number, torque in enumerate(torques)]
+    columns = 'Name = { field = "id" }\nTorque = { field = "peak_torque_nm", unit = "mNm", unlimited = ["none"], '
+    mapping = write_csv("own.toml", f'kind = "motors"\n[columns]\n{columns}missing = ["n/a"] }}\n')
+    catalogue.import_file(write_json(tmp_path / "list.json", rows), mapping=mapping, source=SOURCE)
+    found = [catalogue.part(f"m{number}")[1]["peak_torque_nm"] for number in range(len(torques))]
+    assert found == [0.125, 0.125, 2.0, inf, None]
+
+
+@pytest.mark.parametrize(
+    ("cell", "words"),
+    [
+        ({"Value": "12,5", "EngineeringUnits": "mNm"}, "a decimal comma was given"),
+        ({"Value": "12 Nm", "EngineeringUnits": "mNm"}, "a unit was given"),
+        ({"Value": True, "EngineeringUnits": "mNm"}, "write a number"),
+        ({"Value": [1], "EngineeringUnits": "mNm"}, "write a number"),
+        ({"Value": "unlimited", "EngineeringUnits": "kg"}, "kg measures"),
+        ({"Value": 1, "EngineeringUnits": 1000}, "write it plainly"),
+        ({"Value": 10**400, "EngineeringUnits": "mNm"}, "more than a number can hold"),
+        ({"Value": "1e400", "EngineeringUnits": "N m"}, "more than a number can hold"),
+    ],
+)
+def test_a_figure_of_json_that_cannot_be_converted_is_refused(
+    catalogue: Catalogue, tmp_path: Path, cell: object, words: str
+) -> None:
+    rows = [{"id": "m", "peak_torque_nm": cell, "source_id": SOURCE}]
+    (told,) = refusal(catalogue, write_json(tmp_path / "motors.json", rows))
+    assert words in told
+
+
+@pytest.mark.parametrize("kind", ["motors", None])
+def test_names_of_opc_are_known_whatever_the_list_is_called(
+    catalogue: Catalogue, tmp_path: Path, kind: str | None
+) -> None:
+    rows = [{"id": "m", "MotorPowerRated": {"Value": 0.02, "EngineeringUnits": "kW"}, "source_id": SOURCE}]
+    catalogue.import_file(write_json(tmp_path / "foo.json", rows), kind)
+    assert catalogue.part("m")[1]["rated_power_w"] == 20.0
+
+
+def test_a_column_is_taken_once_by_either_of_its_names(catalogue: Catalogue, tmp_path: Path) -> None:
+    rows = [{"id": "m", "MotorPowerRated": 20, "rated_power_w": 30, "source_id": SOURCE}]
+    (told,) = refusal(catalogue, write_json(tmp_path / "motors.json", rows))
+    assert "'rated_power_w', expected each column once; it is rated_power_w again" in told
 
 
 def test_what_a_row_of_json_leaves_out_keeps_its_value_in_an_update(catalogue: Catalogue, tmp_path: Path) -> None:
@@ -186,8 +264,63 @@ def test_a_folder_is_one_import(catalogue: Catalogue, tmp_path: Path) -> None:
     )
     (report,) = catalogue.import_file(tmp_path / "all", "motors", update=True)
     assert (report.added, report.unchanged) == (1, 4)
-    with pytest.raises(InvalidRows, match="has no part named"):
+    with pytest.raises(InvalidRows, match=r"has no file named after a kind of row, such as motors; name the file so$"):
         catalogue.import_file(tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("titles", "options", "words"),
+    [
+        (["motors", "gearboxs"], {}, "has a sheet 'gearboxs', which is no kind of row; did you mean 'gearboxes'"),
+        (["motors", "Winchs"], {"kind": "winches"}, "did you mean 'winches'"),
+        (["Notes", "Ideas"], {}, "no sheet named after a kind of row, such as motors; it has Notes, Ideas; state one"),
+        (["Notes", "motors"], {"kind": "winches"}, "has no sheet named winches; it has Notes, motors; state one with"),
+        (["motor", "motors"], {}, "has several sheets for motors; state one with --sheet"),
+    ],
+)
+def test_a_sheet_that_would_be_passed_over_unseen_is_told(
+    catalogue: Catalogue, tmp_path: Path, titles: list[str], options: dict[str, str], words: str
+) -> None:
+    path = write_xlsx(tmp_path / "p.xlsx", {title: [["id", "source_id"], [title, SOURCE]] for title in titles})
+    (told,) = refusal(catalogue, path, **options)
+    assert words in told
+
+
+def test_a_folder_takes_singular_names_and_refuses_misspelt_ones(catalogue: Catalogue, tmp_path: Path) -> None:
+    folder = tmp_path / "own"
+    folder.mkdir()
+    (folder / "Gearbox.CSV").write_text(f"id,source_id\ng,{SOURCE}\n")
+    (folder / "notes.csv").write_bytes(b"\xff\x00")
+    assert [(one.kind, one.added) for one in catalogue.import_file(folder)] == [("gearboxes", 1)]
+    (folder / "motrs.csv").write_text("")
+    assert "has a file 'motrs', which is no kind of row; did you mean 'motors'" in refusal(catalogue, folder)[0]
+    (folder / "motrs.csv").rename(folder / "gearboxes.csv")
+    (folder / "gearboxes.csv").write_text(f"id,source_id\ng,{SOURCE}\n")
+    assert "has several files for gearboxes; keep one of them" in refusal(catalogue, folder)[0]
+
+
+@pytest.mark.parametrize("words", ['layout = "one-to-many"\n', "[csv]\nheader = false\n"])
+def test_a_mapping_for_csv_alone_takes_no_workbook(
+    catalogue: Catalogue, tmp_path: Path, write_csv: Write, words: str
+) -> None:
+    columns = '[columns]\n1 = { field = "motor_pattern" }\n2 = { field = "gearbox_pattern" }\n'
+    mapping = write_csv("own.toml", f'kind = "compatibilities"\n{words}{columns}')
+    path = write_xlsx(tmp_path / "p.xlsx", {"compatibilities": [["IN_22", "GI_1", "GI_2"]]})
+    with pytest.raises(UnknownName, match=r"own\.toml has no header or a layout of pairs, .*save p\.xlsx as CSV"):
+        catalogue.import_file(path, mapping=mapping)
+
+
+def test_pairs_are_taken_from_a_folder_too(catalogue: Catalogue, tmp_path: Path) -> None:
+    (tmp_path / "compatibilities.csv").write_text("IN_22,GI_1,GI_2\n")
+    (report,) = catalogue.import_file(tmp_path, mapping="mgdb-compatibility", source=SOURCE)
+    assert report.added == 2
+
+
+@pytest.mark.parametrize("name", ["p.xlsx", "p.json", "folder"])
+def test_import_csv_takes_csv_alone(catalogue: Catalogue, tmp_path: Path, name: str) -> None:
+    (tmp_path / "folder").mkdir()
+    with pytest.raises(InvalidRows, match="is no CSV file; import_file takes"):
+        catalogue.import_csv(tmp_path / name)
 
 
 def test_replace_restores_an_exported_catalogue(catalogue: Catalogue, tmp_path: Path, write_csv: Write) -> None:
@@ -211,6 +344,73 @@ def test_a_name_is_free_once_its_row_is_replaced(catalogue: Catalogue, write_csv
     (report,) = catalogue.import_file(write_csv("actuators.csv", text), replace=True)
     assert (report.added, report.removed) == (1, 5)
     assert catalogue.count("actuators") == 1
+
+
+def test_an_export_with_exchanged_names_is_restored(catalogue: Catalogue, tmp_path: Path) -> None:
+    first, second = (f"filipovic-kevac-2018-{number}" for number in (1, 2))
+    for row_id, name in ((first, "Between"), (second, "Actuator 1"), (first, "Actuator 2")):
+        catalogue.edit(row_id, {"name": name})
+    exchanged = catalogue.fingerprint()
+    catalogue.export_folder(tmp_path / "exchanged")
+    for row_id, name in ((first, "Between"), (second, "Actuator 2"), (first, "Actuator 1")):
+        catalogue.edit(row_id, {"name": name})
+    reports = {one.kind: one for one in catalogue.import_file(tmp_path / "exchanged", replace=True)}
+    assert (reports["actuators"].updated, reports["actuators"].unchanged) == (2, 3)
+    assert catalogue.fingerprint() == exchanged
+    last = catalogue.history(first)[-1]
+    assert (last.field, last.old, last.new) == ("name", "Actuator 1", "Actuator 2")
+
+
+PARTS = "filipovic-kevac-2018-motor-1,filipovic-kevac-2018-winch,$"
+ACTUATORS = "id,name,motor_id,winch_id,source_id\n"
+
+
+@pytest.mark.parametrize("option", ["update", "replace"])
+def test_names_are_exchanged_and_handed_on_far_apart(catalogue: Catalogue, write_csv: Write, option: str) -> None:
+    count = 2100  # more than two portions
+    names = [f"Name {number}" for number in range(count)]
+    rows = "".join(f"a{number},{name},{PARTS}\n" for number, name in enumerate(names))
+    path = write_csv("actuators.csv", ACTUATORS + rows)
+    catalogue.import_file(path)
+    names[0], names[-1] = names[-1], names[0]
+    names[1], names[1050], names[2090] = names[1050], "Another", names[1]
+    rows = "".join(f"a{number},{name},{PARTS}\n" for number, name in enumerate(names))
+    write_csv("actuators.csv", ACTUATORS + f"new,Name 2090,{PARTS}\n" + rows)
+    (report,) = catalogue.import_file(path, **{option: True})
+    assert (report.added, report.updated, report.unchanged) == (1, 5, count - 5)
+    found = {str(row["id"]): row["name"] for row in catalogue.rows("actuators")}
+    assert [found[f"a{number}"] for number in range(count)] == names
+    assert found["new"] == "Name 2090"
+    last = catalogue.history("a2099")[-1]
+    assert (last.field, last.old, last.new) == ("name", "Name 2099", "Name 0")
+
+
+def test_a_name_that_its_row_keeps_is_not_given_to_another(catalogue: Catalogue, write_csv: Write) -> None:
+    header = "id,name,motor_id,winch_id,source_id\n"
+    taken = write_csv("actuators.csv", f"{header}filipovic-kevac-2018-1,Actuator 2,{PARTS}\n")
+    (told,) = refusal(catalogue, taken, update=True)
+    assert "expected another name than actuator 'filipovic-kevac-2018-2' of the catalogue" in told
+    taken = write_csv("actuators.csv", "id,name,price\nfilipovic-kevac-2018-1,Actuator 2,\nfilipovic-kevac-2018-2,,1\n")
+    told = refusal(catalogue, taken, update=True)[0]
+    assert "expected another name than actuator 'filipovic-kevac-2018-2' of the catalogue" in told
+
+
+def test_of_a_replacement_that_breaks_off_every_problem_is_told(catalogue: Catalogue, write_csv: Write) -> None:
+    rows = f"filipovic-kevac-2018-1,Actuator 5,nowhere,filipovic-kevac-2018-winch,$\nx,Actuator 2,{PARTS}\n"
+    path = write_csv("actuators.csv", f'{ACTUATORS}{rows}y,"Broken,{PARTS}\n')
+    told = refusal(catalogue, path, replace=True)
+    assert [one.split(":")[0] for one in told] == ["actuators.csv, line 2, motor_id", "actuators.csv, line 4"]
+
+
+def test_an_import_drops_no_table_which_would_end_the_transaction_on_mysql(
+    catalogue: Catalogue, write_csv: Write
+) -> None:
+    said: list[str] = []
+    sa.event.listen(catalogue._engine, "before_cursor_execute", lambda *one: said.append(one[2]))  # noqa: SLF001
+    for number in range(2):
+        catalogue.import_file(write_csv("motors.csv", f"id,source_id\nm{number},$\n"))
+    assert not [statement for statement in said if "DROP" in statement]
+    assert [statement for statement in said if "CREATE TEMPORARY TABLE" in statement]
 
 
 def test_what_others_use_is_not_replaced(catalogue: Catalogue, write_csv: Write) -> None:

@@ -97,6 +97,22 @@ def test_others_can_be_ignored_but_then_every_named_column_has_to_be_there(
         catalogue.import_file(path, mapping=write_csv("acme.toml", text.replace("Weight", "Mass")))
 
 
+ZEROS = ["0", "-0.0", ".0", "0e5", "0e9999999999999999999"]
+
+
+@pytest.mark.parametrize("cell", [*ZEROS, "1e9999999999999999999", "1e-9999999999999999999"])
+def test_only_zero_is_unknown_whatever_its_exponent(catalogue: Catalogue, write_csv: Write, cell: str) -> None:
+    mapping = 'kind = "motors"\n[columns]\nid = { field = "id" }\n'
+    mapping += 'J = { field = "rotor_inertia_g_cm2", unit = "kg m²", zero_is_unknown = true }\n'
+    files = write_csv("list.csv", f"id,J\nm,{cell}\n"), write_csv("own.toml", mapping)
+    if cell == "1e9999999999999999999":
+        with pytest.raises(InvalidRows, match="is no figure"):
+            catalogue.import_file(files[0], mapping=files[1], source="filipovic-kevac-2018")
+        return
+    catalogue.import_file(files[0], mapping=files[1], source="filipovic-kevac-2018")
+    assert catalogue.part("m")[1]["rotor_inertia_g_cm2"] == (None if cell in ZEROS else 0.0)
+
+
 def test_an_unknown_constant_source_is_told_once(catalogue: Catalogue, write_csv: Write) -> None:
     path = write_csv("acme.csv", FOREIGN)
     with pytest.raises(InvalidRows) as error:
@@ -178,6 +194,16 @@ COLUMN = "columns.x"
             {"kind": "motors", "csv": {"delimiter": ",", "decimal": ","}},
             "own.toml, csv.delimiter",
             "another character than the decimal comma",
+        ),
+        (
+            {"kind": "motors", "constants": {"rated_torque_nm": 0.5, "nominal_torque_nm": 0.6}},
+            "own.toml, constants.nominal_torque_nm",
+            "each field once; 'rated_torque_nm' fills it already",
+        ),
+        (
+            {"kind": "motors", "id_from": "{part_number}", "constants": {"id": "a"}},
+            "own.toml, id_from",
+            "no other column or constant that fills id",
         ),
         ({"kind": "motors", "id_from": "{notes}-{weight}"}, "own.toml, id_from", "'weight'"),
     ],
@@ -275,6 +301,12 @@ def test_a_list_in_another_encoding_is_read_as_the_mapping_says(catalogue: Catal
     catalogue.import_file(tmp_path / "list.csv", mapping=tmp_path / "list.toml", source="filipovic-kevac-2018")
     row = catalogue.part("m1")[1]
     assert (row["manufacturer"], row["accessed_date"]) == ("Stöber", "2026-11-03")
+
+
+def test_a_torn_line_is_told_by_the_sign_that_separates_the_cells(catalogue: Catalogue, write_csv: Write) -> None:
+    mapping = write_csv("own.toml", 'kind = "motors"\n[csv]\ndelimiter = ";"\n')
+    with pytest.raises(InvalidRows, match=r"line 2: 3 cells, .*is a semicolon missing or too many"):
+        catalogue.import_file(write_csv("list.csv", "id;source_id\na;b;c\n"), mapping=mapping)
 
 
 @pytest.mark.parametrize(

@@ -1,6 +1,8 @@
 """Units as people spell them, converted to the columns' units."""
 
+import re
 from contextlib import suppress
+from math import inf
 
 import pytest
 from hypothesis import given
@@ -46,6 +48,19 @@ POUND, OUNCE, INCH, GRAVITY = 0.45359237, 0.028349523125, 0.0254, 9.80665  # int
         ("in", MOTORS.field("length_mm"), "1.5", 38.1),
         ("H", MOTORS.field("terminal_inductance_mh"), "0.00035", 0.35),
         ("min", MOTORS.field("thermal_time_constant_motor_s"), "12", 720.0),
+        ("Vs/rad", KE, "0.1", 0.1),
+        ("mVs/rad", KE, "12", 0.012),
+        ("V/1000min⁻¹", KE, "10", 0.0954929658551372),
+        ("V/1000 min⁻¹", KE, "10", 0.0954929658551372),
+        ("kgm²", INERTIA, "1.2e-5", 120.0),
+        ("10⁻⁷kgm²", INERTIA, "3.5", 3.5),
+        ("10⁻⁷ kg m²", INERTIA, "3.5", 3.5),
+        ("10^-7 kgm²", INERTIA, "3.5", 3.5),
+        ("10⁻⁴ kg·m²", INERTIA, "3.5", 3500.0),
+        ("1e-7kgm²", INERTIA, "3.5", 3.5),
+        ("kgmm²", INERTIA, "2", 20.0),
+        ("gmm²", INERTIA, "250", 2.5),
+        ("lbm", MASS, "2", 0.90718474),
     ],
 )
 def test_a_figure_is_converted_exactly(unit: str, field: Field, given: str, expected: float) -> None:
@@ -59,11 +74,16 @@ def test_a_figure_is_converted_exactly(unit: str, field: Field, given: str, expe
         ("ozf·in", TORQUE, OUNCE * GRAVITY * INCH),
         ("in-lb", TORQUE, POUND * GRAVITY * INCH),
         ("lb ft", TORQUE, POUND * GRAVITY * 12.0 * INCH),
+        ("in-lbs", TORQUE, POUND * GRAVITY * INCH),
+        ("lbs-in", TORQUE, POUND * GRAVITY * INCH),
+        ("ft-lbs", TORQUE, POUND * GRAVITY * 12.0 * INCH),
         ("oz-in²", INERTIA, OUNCE * INCH**2 * 1e7),
         ("oz-in-s²", INERTIA, OUNCE * GRAVITY * INCH * 1e7),
         ("lb in^2", INERTIA, POUND * INCH**2 * 1e7),
         ("rad/s", SPEED, 30.0 / 3.141592653589793),
         ("rps", SPEED, 60.0),
+        ("rev/s", SPEED, 60.0),
+        ("V/(rev/s)", KE, 0.15915494309189535),
         ("oz-in/A", MOTORS.field("torque_constant_nm_per_a"), OUNCE * GRAVITY * INCH),
     ],
 )
@@ -100,6 +120,33 @@ def test_other_spellings_of_the_own_unit_change_nothing(unit: str, field: Field)
 def test_a_unit_that_does_not_fit_is_refused(unit: str, field: Field, words: str) -> None:
     with pytest.raises(UnitRefused, match=words):
         conversion(unit, field)
+
+
+RECOMMENDED = {
+    "mNm": TORQUE, "g cm²": INERTIA, "oz-in": TORQUE, "lb": MASS, "V s/rad": KE,
+    "rpm/V": KV, "rad/(s V)": KV, "rev/(s V)": KV,
+    "rpm": SPEED, "rad/s": SPEED, "rev/s": SPEED,
+    "arcmin": BACKLASH, "deg": BACKLASH, "rad": BACKLASH,
+    "°C": TEMPERATURE, "°F": TEMPERATURE, "K": TEMPERATURE,
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("unit", "field"),
+    [("Hz", SPEED), ("1/s", SPEED), ("1/(s V)", KV), ("%", BACKLASH), ("smoots", MASS), ("0 kg", MASS), ("(", MASS),
+     ("kg", TEMPERATURE)],
+)  # fmt: skip
+def test_every_unit_that_a_message_recommends_is_taken(unit: str, field: Field) -> None:
+    with pytest.raises(UnitRefused) as refused:
+        conversion(unit, field)
+    (words,) = re.findall(r"write (?:it as )?(.+?)(?: in its place)?(?: \(.* unit registry\))?$", str(refused.value))
+    for one in re.split(", | or ", words):
+        assert conversion(one, RECOMMENDED[one]).factor > 0
+
+
+def test_figures_beyond_all_exponents_are_zero_or_infinite() -> None:
+    rule = conversion("mNm", TORQUE)
+    assert (rule.apply("1e9999999999999999999"), rule.apply("1e-9999999999999999999")) == (inf, 0.0)
 
 
 def test_one_over_a_figure_is_its_reciprocal() -> None:
