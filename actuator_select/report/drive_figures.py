@@ -10,6 +10,7 @@ from matplotlib.lines import Line2D
 
 from actuator_select.model.actuation import ROUNDING, Check, voltage_limit
 from actuator_select.model.arrays import FloatArray
+from actuator_select.model.trajectory import TorqueTest
 from actuator_select.report.style import BLUE, CABLE_COLOURS, GREY, ORANGE, RED, house_style, new_figure
 from actuator_select.selection import Simulation
 from actuator_select.selection.dossier import ActuatorDetail
@@ -164,7 +165,7 @@ def simulation_figure(run: Simulation) -> Figure:
     panels = figure.subplots(len(run.checks), 1, sharex=True)
     names = {
         Check.SPEED: "shaft speed",
-        Check.TORQUE: "load torque",
+        Check.TORQUE: "load torque" if run.history.torque_test is TorqueTest.LOAD else "torque,\nload and rotor",
         Check.ACCELERATION: "shaft acceleration",
         Check.VOLTAGE: "motor voltage",
     }
