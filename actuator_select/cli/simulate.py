@@ -96,12 +96,12 @@ def command(
 
 def print_simulation(run: "Simulation") -> None:
     """Print the peaks per actuator, what exceeds which limit when, and warnings."""
-    from actuator_select.selection.move_wording import exceedance_words, move_words, pushing_words, unheld_words
+    from actuator_select.selection.move_wording import check_words, move_words, pushing_words, unheld_words
     from actuator_select.selection.simulation import UNITS
     from actuator_select.selection.wording import assumed_words, inapplicable_words, unknown_words
 
     click.echo(move_words(run))
-    header = ["actuator", *(f"|{check.value}| [{UNITS[check]}]" for check in run.checks)]
+    header = ["actuator", *(f"|{check_words(run, check)}| [{UNITS[check]}]" for check in run.checks)]
     rows = [
         [str(cable + 1), *(_cell(run.peaks[check][cable]) for check in run.checks)]
         for cable in range(run.study.robot.cables)
@@ -112,14 +112,9 @@ def print_simulation(run: "Simulation") -> None:
     click.echo(f"Largest magnitudes at the shaft behind the gearbox{terminals}.")
     for text in unheld_words(run):
         click.echo(f"  {text}")
-    if run.exceedances:
-        for exceedance in run.exceedances:
-            click.echo(f"  {exceedance_words(exceedance)}")
-    elif not run.missing and not run.unheld:
-        pushing = ", if its cables could push" if run.pushing else ""
-        click.echo(f"Every limit holds over the whole move{pushing}.")
+    _print_limits(run)
     for check, missing in run.missing.items():
-        click.echo(f"  {check.value} not evaluated: {unknown_words(missing, run.assumable)}")
+        click.echo(f"  {check_words(run, check)} not evaluated: {unknown_words(missing, run.assumable)}")
     for check, reason in run.not_applicable.items():
         click.echo(f"  {inapplicable_words(check, reason)}")
     for assumed in run.candidates.assumed[0]:
@@ -128,6 +123,19 @@ def print_simulation(run: "Simulation") -> None:
         console.warn(pushing_words(run))
     for warning in run.glossed_over:
         console.warn(warning)
+
+
+def _print_limits(run: "Simulation") -> None:
+    """Print what exceeds which limit when, or that nothing does."""
+    from actuator_select.selection.move_wording import exceedance_words, together_words
+
+    for exceedance in run.exceedances:
+        click.echo(f"  {exceedance_words(run, exceedance)}")
+    if not (run.exceedances or run.missing or run.unheld):
+        pushing = ", if its cables could push" if run.pushing else ""
+        click.echo(f"Every limit holds over the whole move{pushing}.")
+    for text in together_words(run):
+        click.echo(f"  note: {text}")
 
 
 def _cell(value: float) -> str:

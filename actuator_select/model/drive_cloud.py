@@ -36,6 +36,11 @@ class DriveCloud:
     load_torque: FloatArray
     total_torque: FloatArray
 
+    @property
+    def is_empty(self) -> bool:
+        """Whether no point has both a speed and a load torque."""
+        return not np.isfinite(self.speed + self.load_torque).any()
+
 
 def drive_cloud(demand: Demand, actuator: ActuatorSet, points: int, positions: IntArray) -> DriveCloud:
     """Sample what all poses, cables and extreme motions ask of one drive.

@@ -1,6 +1,7 @@
 """Straight-line moves with a trapezoidal speed profile, and what they ask of every cable, instant by instant."""
 
 from dataclasses import dataclass
+from enum import Enum
 
 import numpy as np
 
@@ -123,6 +124,20 @@ class LineMove:
     centripetal: bool
 
 
+class TorqueTest(Enum):
+    """Which torque of a move is held against the motor's."""
+
+    LOAD = "load"
+    """The load's alone, eq. 32; the rotor's stands apart in eq. 33, as published."""
+    LOAD_AND_ROTOR = "load and rotor"
+    """M + J_r φ̈, all that the motor has to make."""
+
+
+def torque_test(model: TensionModel) -> TorqueTest:
+    """Torque that a tension model holds against the motor's: the sum unless it lets cables push, as in rankings."""
+    return TorqueTest.LOAD if model.lets_cables_push else TorqueTest.LOAD_AND_ROTOR
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DriveHistory:
     """One actuator type on m cables over S instants; the instants at a corner of the profile stand twice.
@@ -139,6 +154,10 @@ class DriveHistory:
         Of the shaft behind the gearbox, winding in positive. [rad/s, rad/s²]
     torque : (S, m) array
         Load torque on that shaft. [N m]
+    total_torque : (S, m) array
+        With what accelerates the rotor, M + J_r φ̈, the inertia as eq. 22 has it. [N m]
+    torque_test : TorqueTest
+        Which of the two the torque limit holds.
     voltage : (S, m) array
         At the motor's terminals. [V]
     rank_deficient, unbalanced, infeasible : (S,) array of bool
@@ -153,6 +172,8 @@ class DriveHistory:
     speed: FloatArray
     acceleration: FloatArray
     torque: FloatArray
+    total_torque: FloatArray
+    torque_test: TorqueTest
     voltage: FloatArray
     rank_deficient: BoolArray
     unbalanced: BoolArray
@@ -162,7 +183,7 @@ class DriveHistory:
         """History of the quantity that `check` limits, (S, m)."""
         return {
             Check.SPEED: self.speed,
-            Check.TORQUE: self.torque,
+            Check.TORQUE: self.torque if self.torque_test is TorqueTest.LOAD else self.total_torque,
             Check.ACCELERATION: self.acceleration,
             Check.VOLTAGE: self.voltage,
         }[check]
@@ -206,6 +227,8 @@ class DrivenMove:
         The motion, off the anchors: see `kinematics.least_cable_lengths`.
     actuator : ActuatorSet
         A single one.
+    torque_test : TorqueTest
+        Which torque its torque limit holds.
     """
 
     robot: CableRobot
@@ -213,6 +236,7 @@ class DrivenMove:
     tension_model: TensionModel
     move: LineMove
     actuator: ActuatorSet
+    torque_test: TorqueTest
 
     def history(self, times: FloatArray, phases: IntArray) -> DriveHistory:
         """Shaft speed, acceleration, torque and voltage of every actuator, from exact derivatives.
@@ -264,6 +288,8 @@ class DrivenMove:
             speed=shaft_speed,
             acceleration=shaft_acceleration,
             torque=torque,
+            total_torque=torque + shaft.inertia * shaft_acceleration,
+            torque_test=self.torque_test,
             rank_deficient=shared.rank_deficient,
             unbalanced=shared.unbalanced,
             infeasible=infeasible,

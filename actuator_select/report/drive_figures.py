@@ -10,6 +10,7 @@ from matplotlib.lines import Line2D
 
 from actuator_select.model.actuation import ROUNDING, Check, voltage_limit
 from actuator_select.model.arrays import FloatArray
+from actuator_select.model.trajectory import TorqueTest
 from actuator_select.report.style import BLUE, CABLE_COLOURS, GREY, ORANGE, RED, house_style, new_figure
 from actuator_select.selection import Simulation
 from actuator_select.selection.dossier import ActuatorDetail
@@ -47,36 +48,91 @@ def torque_speed_plane(detail: ActuatorDetail) -> Figure:
     axes.scatter(speed, cloud.load_torque, s=3, color=BLUE, alpha=0.5, linewidths=0.0, rasterized=True, label="_load")
     torque, fastest = float(motor.motor_torque[0]), rpm(float(motor.motor_speed[0]))
     peak, greatest = detail.peak_torque, rpm(detail.greatest_speed)
-    height = _extent([cloud.total_torque, cloud.load_torque], torque, peak)
+    standstill = _standstill(detail)
+    continuous = standstill if np.isfinite(standstill) else torque
+    height = _extent([cloud.total_torque, cloud.load_torque], continuous, peak)
     width = _extent([speed], fastest, greatest)
     axes.set_xlim(-width, width)
     axes.set_ylim(-height, height)
     handles = [
         *_box(axes, (fastest, torque), ("rated speed", "rated torque"), BLUE, "-"),
+        *_box(axes, (np.nan, standstill), ("", "standstill torque, continuous near zero speed:"), BLUE, ":"),
         *_box(axes, (greatest, peak), ("greatest speed", "peak torque"), RED, "-."),
         *_voltage_lines(axes, detail),
-        Line2D([], [], color=BLUE, marker="o", linestyle="", markersize=3, label="load torque"),
-        Line2D([], [], color=ORANGE, marker="o", linestyle="", markersize=3, label="load and rotor acceleration"),
+        *_point_handles(detail),
     ]
     axes.axhline(0.0, color="black", linewidth=0.6)
     axes.axvline(0.0, color="black", linewidth=0.6)
     axes.set_xlabel("motor speed, winding in positive [rpm]")
     axes.set_ylabel("motor torque [N m]")
     _name_quadrants(axes, width, height)
-    axes.legend(handles=handles, loc="upper center", bbox_to_anchor=(0.5, -0.17), ncols=2)
+    if handles:
+        axes.legend(handles=handles, loc="upper center", bbox_to_anchor=(0.5, -0.17), ncols=2)
     return figure
 
 
+def _point_handles(detail: ActuatorDetail) -> list[Line2D]:
+    """Legend of the points that there are."""
+    cloud = detail.cloud
+    style: dict[str, Any] = {"marker": "o", "linestyle": "", "markersize": 3}
+    handles = [] if cloud.is_empty else [Line2D([], [], color=BLUE, label="load torque", **style)]
+    if _has_total(detail):
+        handles.append(Line2D([], [], color=ORANGE, label="load and rotor acceleration", **style))
+    return handles
+
+
+def _has_total(detail: ActuatorDetail) -> bool:
+    return bool(np.isfinite(detail.cloud.speed + detail.cloud.total_torque).any())
+
+
+def _standstill(detail: ActuatorDetail) -> float:
+    """Standstill torque of an AC servo whose rated torque is unknown, else NaN. [N m]"""
+    is_servo = bool(detail.why_no_voltage)
+    return detail.standstill_torque if is_servo and np.isnan(detail.figures.motor_torque[0]) else np.nan
+
+
 def plane_caption(detail: ActuatorDetail) -> str:
-    """What bounds the points of a torque-speed plane, in words."""
-    text = "Blue points belong inside the blue lines (rated torque and speed, continuous)"
+    """What is drawn in a torque-speed plane, in words: points, what bounds them, and why something is not there."""
+    text = [_demand_words(detail) if detail.cloud.is_empty else "", _continuous_words(detail)]
+    if np.isfinite(_standstill(detail)):
+        text.append("Dotted: the standstill torque, which holds continuously near zero speed")
     if detail.why_no_voltage:
-        text += f"; the motor's electrical figures are {detail.why_no_voltage}, so that no voltage line bounds it"
-    elif np.isfinite(voltage_limit(detail.figures)[0]):
-        text += ", orange points between the dashed lines (voltage)"
-    if not np.isnan([detail.peak_torque, detail.greatest_speed]).all():
-        text += ". Dash-dotted: the maker's limits for a short time (peak torque, greatest speed)"
-    return f"{text}."
+        text.append(f"The motor's electrical figures are {detail.why_no_voltage}, so that no voltage line bounds it")
+    elif _is_bounded_by_voltage(detail):
+        inside = "Orange points belong between the dashed lines (voltage)" if _has_total(detail) else "Dashed: voltage"
+        text.append(inside)
+    if np.isfinite([detail.peak_torque, detail.greatest_speed]).any():
+        names = ("peak torque", detail.peak_torque), ("greatest speed", detail.greatest_speed)
+        short = ", ".join(name for name, value in names if np.isfinite(value))
+        text.append(f"Dash-dotted: the maker's limits for a short time ({short})")
+    return "".join(f"{one}. " for one in text if one).rstrip()
+
+
+def _demand_words(detail: ActuatorDetail) -> str:
+    """Why there are no points."""
+    motor = detail.figures
+    figures = {"ratio": motor.ratio, "efficiency": motor.efficiency, "drum radius": motor.drum_radius}
+    unknown = [name for name, value in figures.items() if np.isnan(value[0])]
+    if not unknown:
+        return "No points are drawn, because no drive could hold the platform at any pose"
+    verb = "is" if len(unknown) == 1 else "are"
+    return (
+        "No points are drawn: the torque demand cannot be put at the motor, because "
+        f"{' and '.join(unknown)} {verb} not known"
+    )
+
+
+def _continuous_words(detail: ActuatorDetail) -> str:
+    """What the blue lines are, as far as there are any, and what belongs between them."""
+    motor = detail.figures
+    known = {"torque": np.isfinite(motor.motor_torque[0]), "speed": np.isfinite(motor.motor_speed[0])}
+    names = " and ".join(name for name, there in known.items() if there)
+    if not names:
+        return "No rated torque or speed is stated as a number, so that no blue line is drawn"
+    lines = f"(rated {names}, continuous)"
+    if detail.cloud.is_empty:
+        return f"Blue lines: rated {names}, continuous"
+    return f"Blue points belong {'inside' if all(known.values()) else 'between'} the blue lines {lines}"
 
 
 def _extent(clouds: Sequence[FloatArray], rated: float, short: float) -> float:
@@ -131,14 +187,21 @@ def _name_quadrants(axes: Axes, width: float, height: float) -> None:
         )
 
 
+def _is_bounded_by_voltage(detail: ActuatorDetail) -> bool:
+    """Whether all that the voltage line needs is known."""
+    motor = detail.figures
+    needed = (motor.torque_constant, motor.resistance, voltage_limit(motor), motor.back_emf_constant, motor.friction)
+    return bool(np.isfinite([one[0] for one in needed]).all())
+
+
 def _voltage_lines(axes: Axes, detail: ActuatorDetail) -> list[Line2D]:
     """Torque that ±U leaves at every speed: m = C_m/R_r (±U - C_e ω) - B ω, from eq. 21; none unless U is DC."""
+    if not _is_bounded_by_voltage(detail):
+        return []
     motor = detail.figures
     gain = float(motor.torque_constant[0] / motor.resistance[0])
     voltage, back_emf = float(voltage_limit(motor)[0]), float(motor.back_emf_constant[0])
     friction = float(motor.friction[0])
-    if not np.isfinite([gain, voltage, back_emf, friction]).all():
-        return []
     speed = np.linspace(-1.0, 1.0, 2) * rad_per_s(_ends(axes)[0])
     for sign in (1.0, -1.0):
         torque = gain * (sign * voltage - back_emf * speed) - friction * speed
@@ -164,7 +227,7 @@ def simulation_figure(run: Simulation) -> Figure:
     panels = figure.subplots(len(run.checks), 1, sharex=True)
     names = {
         Check.SPEED: "shaft speed",
-        Check.TORQUE: "load torque",
+        Check.TORQUE: "load torque" if run.history.torque_test is TorqueTest.LOAD else "torque,\nload and rotor",
         Check.ACCELERATION: "shaft acceleration",
         Check.VOLTAGE: "motor voltage",
     }

@@ -16,8 +16,8 @@ INTRODUCTION = (
 
 RECOMPUTED = (
     "What resistance, torque constant and no-load current give, with voltage, back-EMF constant and rated torque, "
-    "against what is printed. A printed figure may be off by half a unit of its last digit. Calculated sheets are left "
-    "out."
+    "against what is printed. A printed figure but the voltage may be off by half a unit of its last digit. Calculated "
+    "sheets are left out."
 )
 
 NOT_EXPLAINED = "**Not explained.**"

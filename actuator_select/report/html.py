@@ -102,6 +102,8 @@ def render_report(selection: Selection, catalogue: Catalogue, details: ReportDet
                 [selection.result.candidates.rows[actuator.index] for actuator in dossier.shown]
             ),
             compared=_compared(selection),
+            detailed=best_words(len(dossier.details), len(selection.ranked)),
+            drawn=best_words(min(PLANES, len(dossier.details)), len(selection.ranked)),
             reasons=reasons_why_nothing_holds(selection.study, selection.attainable_poses),
             apart=len(selection.study.positions) - selection.poses,
             margin_note=margin_words(selection.study),
@@ -158,6 +160,13 @@ def _digits(value: float) -> str:
 def _plain_zero(value: float) -> str:
     """A length to a tenth of a millimetre; never a zero with a sign."""
     return f"{round(value, 4) + 0.0:.4f}"
+
+
+def best_words(some: int, total: int) -> str:
+    """Which actuators are shown, where not all of them are; else empty."""
+    if some >= total:
+        return ""
+    return f"Shown: the best {some if some > 1 else 'one'} of {total} actuators."
 
 
 def _pushing(selection: Selection) -> int:

@@ -24,7 +24,7 @@ from actuator_select.study import Study, Variant
 from actuator_select.units import rad_per_s, rpm
 
 SHOWN = 100  # actuators that are listed and explained; a longer ranking belongs in CSV
-DETAILED = 6  # actuators that get pictures
+DETAILED = 8  # actuators that get pictures
 CLOUD_POINTS = 5000
 PART_KINDS = {"motor": "motors", "gearbox": "gearboxes", "winch": "winches"}
 
@@ -85,6 +85,8 @@ class ActuatorDetail:
         The actuator itself.
     peak_torque, greatest_speed : float
         The maker's limits of the motor for a short time; NaN unknown, infinite unlimited. [N m, rad/s]
+    standstill_torque : float
+        Continuous near zero speed, as makers of servos state it; NaN unknown. [N m]
     why_no_voltage : str
         What the motor's electrical figures are, where the voltage check does not apply to them.
     """
@@ -99,6 +101,7 @@ class ActuatorDetail:
     figures: ActuatorSet
     peak_torque: float
     greatest_speed: float
+    standstill_torque: float
     why_no_voltage: str
 
 
@@ -259,6 +262,7 @@ def _detail(selection: Selection, actuator: RankedActuator) -> ActuatorDetail:
         figures=figures,
         peak_torque=_known(row.get("motor.peak_torque_nm")),
         greatest_speed=rad_per_s(_known(row.get("motor.max_speed_rpm"))),
+        standstill_torque=_known(row.get("motor.standstill_torque_nm")),
         why_no_voltage=why_no_voltage(row),
     )
 

@@ -2,8 +2,10 @@
 
 import numpy as np
 
+from actuator_select.model.actuation import Check
 from actuator_select.model.arrays import FloatArray
 from actuator_select.model.exceedance import Exceedance
+from actuator_select.model.trajectory import TorqueTest
 from actuator_select.selection.simulation import UNITS, Simulation
 from actuator_select.study import Study
 
@@ -25,14 +27,36 @@ def _load_of_move(study: Study) -> str:
     return f"; load: {study.loads[0].title}, the first of {len(study.loads)}" if len(study.loads) > 1 else ""
 
 
-def exceedance_words(exceedance: Exceedance) -> str:
+def check_words(run: Simulation, check: Check) -> str:
+    """What a check of this move looks at; the torque may be that of load and rotor together."""
+    if check is Check.TORQUE and run.history.torque_test is TorqueTest.LOAD_AND_ROTOR:
+        return "torque, load and rotor"
+    return check.value
+
+
+def exceedance_words(run: Simulation, exceedance: Exceedance) -> str:
     """One exceedance in a sentence."""
+    what = check_words(run, exceedance.check)
+    what += "," if "," in what else ""
+    return (
+        f"actuator {exceedance.actuator}: {what} over its limit from {exceedance.start:.3f} s to "
+        f"{exceedance.stop:.3f} s, {_up_to(exceedance)}"
+    )
+
+
+def together_words(run: Simulation) -> list[str]:
+    """Where load and rotor together exceed a limit that each of them is held against alone, a sentence each."""
+    return [
+        f"actuator {one.actuator}: torque of load and rotor together, which eqs. 32 and 33 test apart, exceeds the "
+        f"motor's from {one.start:.3f} s to {one.stop:.3f} s, {_up_to(one)}"
+        for one in run.together
+    ]
+
+
+def _up_to(exceedance: Exceedance) -> str:
     over = 100.0 * (exceedance.worst / exceedance.limit - 1.0)
     unit = UNITS[exceedance.check]
-    return (
-        f"actuator {exceedance.actuator}: {exceedance.check.value} over its limit from {exceedance.start:.3f} s to "
-        f"{exceedance.stop:.3f} s, up to {exceedance.worst:.4g} {unit} of {exceedance.limit:.4g} {unit} ({over:+.1f} %)"
-    )
+    return f"up to {exceedance.worst:.4g} {unit} of {exceedance.limit:.4g} {unit} ({over:+.1f} %)"
 
 
 def unheld_words(run: Simulation) -> list[str]:

@@ -1,7 +1,8 @@
 """A DC motor recomputed from R, kT, I0: does it give its own no-load speed, stall torque and rated point?
 
 A plausibility rule allows 10 %. Here a printed figure stands for the interval that its rounding leaves open, and what
-follows from R, kT, I0, kE and U is the interval over all of theirs: the figures agree where the intervals meet.
+follows from R, kT, I0 and kE at the nominal voltage, which is exact, is the interval over all of theirs: the figures
+agree where the intervals meet.
 """
 
 from collections.abc import Callable, Sequence
@@ -14,7 +15,7 @@ from actuator_select.selection.electrical import Row, back_emf_constant
 from actuator_select.selection.plausibility_rules import MOTOR_LINE
 from actuator_select.units import rpm, v_s_per_rad
 
-LEAST_DIGITS = 3  # significant digits that a printed figure has at least: 24 V is 24.0 V
+LEAST_DIGITS = 3  # significant digits that a printed figure has at least: 1.2 Ω is 1.20 Ω
 
 CALCULATED = "manufacturer_calculation"
 """Provenance of sheets that print what the maker computed from R and kT; that they reproduce it says nothing."""
@@ -33,7 +34,7 @@ class LineFigure:
     stated, expected : float
         The figure as printed and as computed from the printed constants, in `unit`.
     stated_range, expected_range : (float, float)
-        The same with every printed figure anywhere within its rounding.
+        The same with every printed figure but the voltage anywhere within its rounding.
     """
 
     id: str
@@ -158,7 +159,11 @@ def recompute(row: Row) -> list[LineFigure]:
     """
     # Other columns may hold what no rounding can be told of, such as an unlimited peak torque.
     known = {column: float(row[column]) for column in COLUMNS if row.get(column) is not None}
-    printed = {column: rounding_interval(value) for column, value in known.items()}
+    printed = {
+        # The nominal voltage is the condition that the sheet's figures are stated at, not one of its measurements.
+        column: (value, value) if column == _VOLTAGE else rounding_interval(value)
+        for column, value in known.items()
+    }
     back_emf = back_emf_constant(row)
     if back_emf is not None:
         known[_BACK_EMF], printed[_BACK_EMF] = back_emf, _back_emf_interval(row)

@@ -15,6 +15,9 @@ from actuator_select.selection.electrical import ALTERNATING_CURRENT, Row, back_
 from actuator_select.selection.part_sketch import Characteristics, Duty, Mark, Point, Sketch, Slope
 from actuator_select.units import rad_per_s, rpm
 
+BELOW_LINE = 0.95  # of the line's speed at rated torque; a rated speed below is not rounding, and is noted
+RATED_SPEED, BOTH_SPEEDS = "rated speed", "maximum and rated speed"
+
 
 def characteristics(kind: str, row: Row) -> Characteristics:
     """Find what can be drawn of a row.
@@ -64,11 +67,12 @@ def _motor(row: Row) -> Characteristics:
         _dc_regions(sketch, torque, speed, peak, fastest)
     sketch.limit(torque, "rated torque", Duty.CONTINUOUS, of_load=True)
     sketch.limit(peak, "peak torque", Duty.SHORT, of_load=True)
-    sketch.limit(fastest, "maximum speed", Duty.SHORT, of_load=False)
+    same = fastest == speed
+    sketch.limit(fastest, BOTH_SPEEDS if same else "maximum speed", Duty.SHORT, of_load=False)
     if isfinite(torque) and isfinite(speed):
         sketch.marks.append(Mark(name="rated point", speed=speed, load=torque))
-    else:
-        sketch.limit(speed, "rated speed", Duty.CONTINUOUS, of_load=False)
+    elif not same:
+        sketch.limit(speed, RATED_SPEED, Duty.CONTINUOUS, of_load=False)
     at = "output shaft" if row.get("figures_at") == "output_shaft" else "motor shaft"
     return sketch.done(
         title=_title(row), speed_name=f"speed of the {at}", speed_unit="rpm", load_name="torque", load_unit="N m"
@@ -82,6 +86,8 @@ def _servo_regions(sketch: Sketch, torque: float, speed: float, peak: float, fas
     if isfinite(standstill):
         corners = ((0.0, 0.0), (0.0, standstill), (speed, torque), (speed, 0.0))
         sketch.region("continuous: standstill torque to the rated point", Duty.CONTINUOUS, *corners)
+        if isfinite(torque) and isfinite(speed):
+            sketch.notes.append("straight between standstill and rated point")
     else:
         sketch.region("continuous: rated torque up to rated speed", Duty.CONTINUOUS, *_box(speed, torque))
     if isfinite(peak) and isfinite(fastest):
@@ -103,9 +109,14 @@ def _dc_regions(sketch: Sketch, torque: float, speed: float, peak: float, fastes
             continue
         height = load if line is None else min(load, line.load)
         upper, lower = (end, end) if line is None else (min(end, line.speed_at(height)), min(end, line.speed))
+        if line is not None and duty is Duty.CONTINUOUS and height == torque and speed < upper:
+            # The maker's point, with a warm winding and the losses, is nearer than the line of the cold motor.
+            if speed < BELOW_LINE * line.speed_at(height):
+                sketch.notes.append("rated point below the line of the cold motor")
+            upper = speed
         corners = [(0.0, 0.0), (0.0, height), (upper, height)]
         if line is not None and upper < lower == end:
-            corners.append((end, line.load * (1.0 - end / line.speed)))
+            corners.append((end, height * (line.speed - end) / (line.speed - upper)))
         sketch.region(f"{name}: up to {'peak' if duty is Duty.SHORT else 'rated'} torque", duty, *corners, (lower, 0.0))
 
 
@@ -121,8 +132,8 @@ def _voltage_line(sketch: Sketch) -> Slope | None:
     if isfinite(stall) and isfinite(no_load):
         ends = [name for name, used in (("stall torque", printed_stall), ("no-load speed", printed_speed)) if used]
         how = f"{' and '.join(ends)} as printed" if ends else "kT/R (U − kE ω), without friction"
-        at = f" at {voltage:g} V" if isfinite(voltage) else ""
-        return Slope(name=f"voltage line{at}: {how}", load=stall, speed=no_load, printed=bool(ends))
+        name = f"voltage line at {voltage:g} V: {how}" if isfinite(voltage) else f"{how}, voltage not stated"
+        return Slope(name=name, load=stall, speed=no_load, printed=bool(ends))
     needs = {
         "nominal voltage": voltage,
         "resistance": resistance if printed_stall else 0.0,
@@ -229,5 +240,5 @@ def _scale(sketch: Sketch, motor: Characteristics, speed_scale: float, load_scal
     for mark in motor.marks:
         if isfinite(speed_scale) and isfinite(load_scale):
             sketch.marks.append(replace(mark, speed=mark.speed * speed_scale, load=mark.load * load_scale))
-        else:
-            sketch.limit(mark.speed * speed_scale, "motor: rated speed", Duty.CONTINUOUS, of_load=False)
+        elif not any(limit.name == BOTH_SPEEDS for limit in motor.limits):
+            sketch.limit(mark.speed * speed_scale, f"motor: {RATED_SPEED}", Duty.CONTINUOUS, of_load=False)

@@ -1,7 +1,7 @@
 """One actuator along one straight line: histories, peaks, and what exceeds which limit, when, by how much."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -13,12 +13,15 @@ from actuator_select.model.arrays import FloatArray
 from actuator_select.model.evaluation import missing_figures
 from actuator_select.model.exceedance import Exceedance, exceedances, peaks, with_peaks
 from actuator_select.model.kinematics import LEAST_CABLE_LENGTH, least_cable_lengths
+from actuator_select.model.tension import TensionModel
 from actuator_select.model.trajectory import (
     DriveHistory,
     DrivenMove,
     LineMove,
+    TorqueTest,
     instants,
     shaft_limits,
+    torque_test,
     trapezoidal_profile,
 )
 from actuator_select.selection.assumptions import assumption_keys, why_no_voltage
@@ -55,6 +58,9 @@ class Simulation:
         Largest magnitude per cable over the whole move, and when; not only over the instants of `history`.
     exceedances : tuple of Exceedance
         In the order of time.
+    together : tuple of Exceedance
+        Where load and rotor torque together exceed the torque limit, in the order of time; of these, only where the
+        torque test is of the load alone.
     """
 
     study: Study
@@ -65,6 +71,7 @@ class Simulation:
     peaks: dict[Check, FloatArray]
     peak_times: dict[Check, FloatArray]
     exceedances: tuple[Exceedance, ...]
+    together: tuple[Exceedance, ...]
 
     @property
     def duration(self) -> float:
@@ -84,9 +91,11 @@ class Simulation:
     @property
     def missing(self) -> dict[Check, tuple[str, ...]]:
         """Checks that could not be evaluated, with the figures that they lack."""
-        lacking = {
-            check: missing_figures(self.candidates.actuators, check, self.study.tension_model)[0] for check in Check
-        }
+        actuators = self.candidates.actuators
+        lacking = {check: missing_figures(actuators, check, TensionModel.PSEUDO_INVERSE)[0] for check in Check}
+        if self.history.torque_test is TorqueTest.LOAD_AND_ROTOR:
+            # What rankings call the acceleration check under such a model is the torque check here.
+            lacking[Check.TORQUE] = missing_figures(actuators, Check.ACCELERATION, self.study.tension_model)[0]
         return {check: figures for check, figures in lacking.items() if figures}
 
     @property
@@ -129,7 +138,10 @@ class Simulation:
         return [int(cable) + 1 for cable in np.flatnonzero((tension < -tolerance).any(axis=0))]
 
     def frame(self) -> "pd.DataFrame":
-        """Histories as a table: time, and per actuator speed, acceleration, torque, voltage if it applies, tension."""
+        """Histories as a table: time, and what every actuator does and meets.
+
+        Speed, acceleration, torque of the load and of load and rotor, voltage if it applies, tension.
+        """
         import pandas as pd
 
         columns = {"time_s": self.history.times}
@@ -138,6 +150,7 @@ class Simulation:
             columns[f"speed_{number}_rad_per_s"] = self.history.speed[:, index]
             columns[f"acceleration_{number}_rad_per_s2"] = self.history.acceleration[:, index]
             columns[f"torque_{number}_nm"] = self.history.torque[:, index]
+            columns[f"total_torque_{number}_nm"] = self.history.total_torque[:, index]
             if Check.VOLTAGE in self.checks:
                 columns[f"voltage_{number}_v"] = self.history.voltage[:, index]
             columns[f"tension_{number}_n"] = self.history.tension[:, index]
@@ -215,6 +228,7 @@ def simulate_candidate(
         tension_model=study.tension_model,
         move=move,
         actuator=candidate.actuators,
+        torque_test=torque_test(study.tension_model),
     )
     if least_cable_lengths(study.robot, move.start, move.stop, move.orientation).min() < LEAST_CABLE_LENGTH:
         problem = Problem(
@@ -235,7 +249,15 @@ def simulate_candidate(
         peaks={check: height for check, (height, _) in found.items()},
         peak_times={check: time for check, (_, time) in found.items()},
         exceedances=exceedances(driven, closer),
+        together=_together(driven) if driven.torque_test is TorqueTest.LOAD else (),
     )
+
+
+def _together(driven: DrivenMove) -> tuple[Exceedance, ...]:
+    """Where the sum of eqs. 32 and 33 exceeds the torque limit, though they test its parts apart."""
+    summed = replace(driven, torque_test=TorqueTest.LOAD_AND_ROTOR)
+    closer = with_peaks(summed, summed.history(*instants(summed.move.profile, INSTANTS_PER_PHASE)))
+    return tuple(one for one in exceedances(summed, closer) if one.check is Check.TORQUE)
 
 
 def _line_move(

@@ -15,8 +15,10 @@ from actuator_select.model.trajectory import (
     DriveHistory,
     DrivenMove,
     LineMove,
+    TorqueTest,
     TrapezoidalProfile,
     instants,
+    torque_test,
     trapezoidal_profile,
 )
 
@@ -53,11 +55,22 @@ def line_move(profile: TrapezoidalProfile | None = None) -> LineMove:
     )
 
 
+def driven(
+    drive: ActuatorSet, move: LineMove | None = None, robot: CableRobot = ROBOT, model: TensionModel = PUBLISHED
+) -> DrivenMove:
+    return DrivenMove(
+        robot=robot,
+        wrench=WRENCH,
+        tension_model=model,
+        move=move or line_move(),
+        actuator=drive,
+        torque_test=torque_test(model),
+    )
+
+
 def history(drive: ActuatorSet, per_phase: int = 401) -> tuple[LineMove, DriveHistory]:
     move = line_move()
-    return move, DrivenMove(robot=ROBOT, wrench=WRENCH, tension_model=PUBLISHED, move=move, actuator=drive).history(
-        *instants(move.profile, per_phase)
-    )
+    return move, driven(drive, move).history(*instants(move.profile, per_phase))
 
 
 def test_a_long_move_cruises_at_the_greatest_speed() -> None:
@@ -133,17 +146,11 @@ def test_without_the_centripetal_term_only_accelerations_and_voltages_change() -
     flat = LineMove(
         start=move.start, stop=move.stop, orientation=move.orientation, profile=move.profile, centripetal=False
     )
-    other = DrivenMove(robot=ROBOT, wrench=WRENCH, tension_model=PUBLISHED, move=flat, actuator=actuator()).history(
-        run.times, run.phases
-    )
+    other = driven(actuator(), flat).history(run.times, run.phases)
     assert np.array_equal(other.torque, run.torque)
     assert np.array_equal(other.speed, run.speed)
     assert (other.acceleration >= run.acceleration).all()
     assert (other.acceleration > run.acceleration + 0.1).any()
-
-
-def driven(drive: ActuatorSet) -> DrivenMove:
-    return DrivenMove(robot=ROBOT, wrench=WRENCH, tension_model=PUBLISHED, move=line_move(), actuator=drive)
 
 
 def test_peaks_are_found_between_coarse_instants() -> None:
@@ -210,6 +217,41 @@ def test_flat_histories_do_not_count_as_thousands_of_maxima() -> None:
         profile=trapezoidal_profile(1.9, 0.3, 1.0, 1.0),
         centripetal=True,
     )
-    hoist = DrivenMove(robot=robot, wrench=WRENCH, tension_model=PUBLISHED, move=move, actuator=actuator())
+    hoist = driven(actuator(), move, robot)
     coarse = hoist.history(*instants(move.profile, 401))
     assert len(with_peaks(hoist, coarse).times) < 4 * len(coarse.times)
+
+
+HEAVY_ROTOR = 1.0e-4  # kg m²; its torque is of the size of the load's
+
+
+def test_where_tensions_are_bounded_the_torque_test_is_of_load_and_rotor_together() -> None:
+    drive = actuator(rotor_inertia=HEAVY_ROTOR)
+    plain = driven(drive, model=TensionModel.FORCE_ONLY)
+    assert plain.torque_test is TorqueTest.LOAD_AND_ROTOR
+    run = plain.history(*instants(plain.move.profile, 51))
+    held = ~run.infeasible
+    rotor = HEAVY_ROTOR * 30.0**2 * 0.6 * run.acceleration  # J_M N_V N_M φ̈
+    assert held.any()
+    assert run.of(Check.TORQUE)[held] == pytest.approx((run.tension * 0.08 + rotor)[held], rel=1e-12)
+    assert driven(drive).torque_test is TorqueTest.LOAD
+    published = driven(drive).history(run.times, run.phases)
+    assert published.of(Check.TORQUE) == pytest.approx(published.tension * 0.08, rel=1e-12)
+
+
+@pytest.mark.parametrize("share", [0.5, 1.0 - 1e-7])
+def test_a_sum_of_torques_over_the_limit_is_found_though_load_and_rotor_alone_are_below(share: float) -> None:
+    drive = actuator(rotor_inertia=HEAVY_ROTOR)
+    plain = driven(drive, model=TensionModel.FORCE_ONLY)
+    closer = with_peaks(plain, plain.history(*instants(plain.move.profile, 101)))
+    alone = float(np.nanmax(np.abs(closer.torque)))
+    rotor = float(np.nanmax(np.abs(closer.total_torque - closer.torque)))
+    together = float(peaks(closer, Check.TORQUE)[0].max())
+    assert together > 1.02 * max(alone, rotor)
+    limit = max(alone, rotor) + share * (together - max(alone, rotor))
+    weak = driven(actuator(rotor_inertia=HEAVY_ROTOR, motor_torque=limit / (30.0 * 0.6)), model=TensionModel.FORCE_ONLY)
+    found = [one for one in exceedances(weak, closer) if one.check is Check.TORQUE]
+    assert found
+    assert max(one.worst for one in found) == pytest.approx(together, rel=1e-9)
+    assert all(one.limit == pytest.approx(limit) for one in found)
+    assert not [one for one in exceedances(weak, closer) if one.check is Check.ACCELERATION]

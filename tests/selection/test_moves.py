@@ -1,10 +1,12 @@
 """Moves that no drive could make, and places that no drive could serve, are said to be so."""
 
-from actuator_select import Catalogue, load_study, rank, simulate
-from actuator_select.selection.move_wording import unheld_words
+from actuator_select import Catalogue, load_study, open_catalogue, rank, simulate
+from actuator_select.model.actuation import Check
+from actuator_select.selection.move_wording import check_words, exceedance_words, together_words, unheld_words
 from actuator_select.selection.records import selection_record, simulation_record
 from actuator_select.selection.wording import summary
 from actuator_select.study import parse_study, template_text
+from tests.selection.parts import DC, add_drive
 
 HALL = template_text("hall", "suspended-8")
 
@@ -70,3 +72,35 @@ def test_a_move_near_an_anchor_is_warned_of(catalogue: Catalogue) -> None:
     assert any("cables.length_min_m" in text for text in simulate(study, catalogue, "Actuator 1", **ends).glossed_over)
     free = parse_study(HALL, place="hall.toml")
     assert simulate(free, catalogue, "Actuator 1", **ends).glossed_over == []
+
+
+LINE = {"start": (0.5, 0.5, -0.5), "stop": (2.5, 0.5, -0.5)}
+BOUNDED = {"tension.model": "force_only", "cables.tension_min_n": 1.0, "cables.tension_max_n": 500.0}
+
+
+def test_load_and_rotor_together_are_a_note_where_the_equations_test_them_apart() -> None:
+    with open_catalogue(":memory:") as own:
+        # A rotor so heavy that it takes nearly all of the torque, as the load does at another moment.
+        add_drive(own, "heavy", DC | {"rotor_inertia_g_cm2": 2500, "rated_torque_nm": 0.085}, efficiency_percent=60)
+        run = simulate(load_study("cpr8"), own, "heavy", **LINE)
+        bounded = simulate(load_study("cpr8", BOUNDED), own, "heavy", **LINE)
+    assert not [one for one in run.exceedances if one.check in (Check.TORQUE, Check.ACCELERATION)]
+    assert run.together
+    assert all("which eqs. 32 and 33 test apart, exceeds" in text for text in together_words(run))
+    assert check_words(run, Check.TORQUE) == "torque"
+    assert bounded.together == ()
+    over = [one for one in bounded.exceedances if one.check is Check.TORQUE]
+    assert over
+    assert ": torque, load and rotor, over its limit from" in exceedance_words(bounded, over[0])
+    table = bounded.frame()
+    assert (table["total_torque_1_nm"] - table["torque_1_nm"]).abs().max() > 0.0
+
+
+def test_without_a_rotor_inertia_the_sum_is_not_evaluated_and_the_load_alone_is() -> None:
+    light = {name: value for name, value in DC.items() if name != "rotor_inertia_g_cm2"}
+    with open_catalogue(":memory:") as own:
+        add_drive(own, "light", light, efficiency_percent=60)
+        run = simulate(load_study("cpr8"), own, "light", **LINE)
+        bounded = simulate(load_study("cpr8", BOUNDED), own, "light", **LINE)
+    assert Check.TORQUE not in run.missing
+    assert run.missing[Check.ACCELERATION] == bounded.missing[Check.TORQUE] == ("rotor_inertia",)
