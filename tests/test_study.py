@@ -110,8 +110,16 @@ def test_the_starter_study_works_as_it_stands() -> None:
         (
             "assumptions.gearbox_efficiency_percent",
             101,
-            "assumptions.gearbox_efficiency_percent: 101, expected at most 100 [per cent, 0 to 100]",
+            "assumptions.gearbox_efficiency_percent: 101, expected more than 1 and at most 100 [per cent]",
         ),
+        (
+            "assumptions.gearbox_efficiency_percent",
+            0.7,
+            "gearbox_efficiency_percent: 0.7, expected more than 1 and at most 100; a fraction was given, write 70",
+        ),
+        ("assumptions.gearbox_efficiency_percent", 0.0, "expected more than 1 and at most 100 [per cent]"),
+        ("assumptions.gearbox_inertia_g_cm2", -1.0, "gearbox_inertia_g_cm2: -1.0, expected at least 0 [g cm²]"),
+        ("assumptions.drum_inertia_kg_m2", -1.0, "drum_inertia_kg_m2: -1.0, expected at least 0 [kg m²]"),
         (
             "assumptions.viscous_friction_nm_s_per_rad",
             -1.0,

@@ -62,6 +62,7 @@ def command(
     """
     from actuator_select.database import open_catalogue
     from actuator_select.selection import rank, selection_record
+    from actuator_select.selection.part_wording import exceeded_notes
     from actuator_select.study import load_study, parse_overrides
 
     loaded = load_study(study, parse_overrides(overrides), limit=not no_limit)
@@ -69,12 +70,16 @@ def command(
         console.say_all(catalogue.notices)
         with console.progress("Evaluating") as progress:
             selection = rank(loaded, catalogue, where=where, require=require, progress=progress)
+    exceeded = exceeded_notes(selection.shown(only_meeting=only_meeting))
     if output_format == "json":
         console.emit_json(selection_record(selection, only_meeting=only_meeting))
     elif output_format == "csv":
         _emit_csv(selection, only_meeting=only_meeting)
     else:
         print_ranking(selection, only_meeting=only_meeting)
+    for note in exceeded:
+        console.warn(note)
+    if output_format == "table":
         console.say(f"Next: {_report_command(study)}")
 
 
@@ -120,9 +125,11 @@ def _print_table(selection: "Selection", actuators: "Sequence[RankedActuator]") 
 
 def _notes(selection: "Selection", actuators: "Sequence[RankedActuator]") -> list[str]:
     """What to know about the table: checks not evaluated, assumptions, how a check counts, what is not checked."""
+    from actuator_select.selection.part_wording import left_out_note
     from actuator_select.selection.wording import assumption_notes, check_notes, unchecked_limits
 
     notes = [*check_notes(actuators), *(f"* Assumed: {note}" for note in assumption_notes(actuators))]
+    notes += [note] if (note := left_out_note(actuators)) else []
     notes.append("Each check: positions that this limit alone allows, worst demand / limit over the whole motion set.")
     if not selection.study.tension_model.lets_cables_push:
         exact = [f"{one.name} {one.exact_poses}" for one in actuators if one.exact_poses is not None]
@@ -137,7 +144,8 @@ def _emit_csv(selection: "Selection", *, only_meeting: bool) -> None:
     checks = list(selection.study.checks)
     header = ["id", "name", "verdict", "feasible_percent", "feasible_poses", "poses"]
     header += [f"{check.value}_{what}" for check in checks for what in ("state", "poses", "worst_utilisation")]
-    header.append("assumptions")
+    header += ["assumptions", "left_out", "exceeded_part_limits", "feasible_is_upper_bound", "feasible_poses_exact"]
+    header += [f"{check.value}_{what}" for check in checks for what in ("missing", "reason")]
     rows = []
     for actuator in selection.shown(only_meeting=only_meeting):
         row: list[object] = [
@@ -151,7 +159,15 @@ def _emit_csv(selection: "Selection", *, only_meeting: bool) -> None:
         for check in checks:
             verdict = actuator.checks[check]
             row += [verdict.state.value, verdict.poses, verdict.worst_utilisation]
-        row.append("; ".join(assumed_words([one]) for one in actuator.assumptions))
+        row += [
+            "; ".join(assumed_words([one]) for one in actuator.assumptions),
+            "; ".join(actuator.left_out),
+            "; ".join(one.text for one in actuator.exceeded),
+            actuator.is_upper_bound,
+            actuator.exact_poses,
+        ]
+        for check in checks:
+            row += ["; ".join(actuator.checks[check].missing), actuator.checks[check].reason]
         rows.append(row)
     console.emit_csv(header, rows)
 

@@ -29,7 +29,7 @@ class ActuatorSet:
     friction : (C,) array
         Viscous friction B_c at the motor. [N m s/rad]
     rotor_inertia : (C,) array
-        J_M at the motor. [kg m²]
+        J_M: of all that turns with the rotor, seen at the motor's shaft. [kg m²]
     ratio : (C,) array
         Gear ratio N_V; 1 without a gearbox.
     efficiency : (C,) array

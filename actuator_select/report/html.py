@@ -22,7 +22,7 @@ from actuator_select.report.style import data_uri
 from actuator_select.report.sweep_figures import sweep_figure
 from actuator_select.report.workspace_figures import share_bars, slice_panels
 from actuator_select.report.workspace_panels import workspace_panels
-from actuator_select.selection import RankedActuator, Selection, move_wording, wording
+from actuator_select.selection import RankedActuator, Selection, move_wording, part_wording, wording
 from actuator_select.selection.dossier import Dossier, build_dossier
 from actuator_select.selection.plausibility import figure as four_digits
 from actuator_select.selection.sweeps import Sweep
@@ -98,6 +98,8 @@ def render_report(selection: Selection, catalogue: Catalogue, details: ReportDet
             shortlist=shortlist(selection),
             pushing=_pushing(selection),
             assumed=wording.assumption_notes(dossier.shown),
+            left_out=part_wording.left_out_note(dossier.shown),
+            exceeded=part_wording.exceeded_notes(dossier.shown),
             unchecked=wording.unchecked_limits(
                 [selection.result.candidates.rows[actuator.index] for actuator in dossier.shown]
             ),

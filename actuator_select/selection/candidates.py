@@ -1,14 +1,17 @@
 """From catalogue rows to the model's actuators: the one place where datasheet units become SI."""
 
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 from actuator_select.database import Catalogue
 from actuator_select.errors import NoCandidates, UnknownName, did_you_mean
+from actuator_select.model.actuation import Check
 from actuator_select.model.components import ActuatorSet
-from actuator_select.model.evaluation import needed_figures
-from actuator_select.selection.assumptions import Assumed, with_assumptions
+from actuator_select.model.evaluation import missing_figures, needed_figures
+from actuator_select.model.tension import TensionModel
+from actuator_select.selection.assumptions import Assumed, why_no_voltage, with_assumptions
 from actuator_select.selection.electrical import Row, back_emf_constant
+from actuator_select.selection.inertias import MotorInertia, drum_needs_transmission, motor_inertia
 from actuator_select.study import Study
 from actuator_select.study.schema import AssumptionsTable
 from actuator_select.units import fraction, kg_m2, metres, rad_per_s
@@ -40,14 +43,20 @@ class Candidates:
     rows : tuple of mapping
         Catalogue rows with the joined columns, units as in the column names.
     actuators : ActuatorSet
-        The same in SI units, NaN where unknown.
+        The same in SI units, NaN where unknown. `rotor_inertia` is that of rotor, gearbox and drum at the motor.
     assumed : tuple of tuple of Assumed
         For every actuator, the figures that the catalogue does not state and that were taken all the same.
+    left_out : tuple of tuple of str
+        For every actuator, what its inertia leaves out, because neither catalogue nor study states it.
+    inertia_lacks : tuple of tuple of str
+        For every actuator, figures for want of which a drum's inertia cannot be seen from the motor.
     """
 
     rows: tuple[Row, ...]
     actuators: ActuatorSet
     assumed: tuple[tuple[Assumed, ...], ...]
+    left_out: tuple[tuple[str, ...], ...]
+    inertia_lacks: tuple[tuple[str, ...], ...]
 
     @property
     def ids(self) -> list[str]:
@@ -59,9 +68,22 @@ class Candidates:
         """Names for people."""
         return [str(row["name"]) for row in self.rows]
 
+    def missing(self, check: Check, model: TensionModel) -> list[tuple[str, ...]]:
+        """As `missing_figures`; an inertia that is unknown because of the drum's is called by what that takes."""
+        return [
+            tuple(
+                dict.fromkeys(
+                    name for one in lacking for name in (lacks if one == "rotor_inertia" and lacks else (one,))
+                )
+            )
+            for lacking, lacks in zip(missing_figures(self.actuators, check, model), self.inertia_lacks, strict=True)
+        ]
+
 
 def from_rows(
-    rows: Sequence[Row], assumptions: AssumptionsTable | None = None, needed: Collection[str] | None = None
+    rows: Sequence[Row],
+    assumptions: AssumptionsTable | None = None,
+    needed: Mapping[Check, Sequence[str]] | None = None,
 ) -> Candidates:
     """Convert catalogue rows.
 
@@ -71,8 +93,8 @@ def from_rows(
         Rows of ``actuators`` with their joined columns.
     assumptions : AssumptionsTable, optional
         What stands for figures that the rows do not state; nothing by default.
-    needed : collection of str, optional
-        Figures of the model that some check needs; of others nothing is assumed. All by default.
+    needed : mapping of Check to sequence of str, optional
+        Figures of the model that each check needs; of others nothing is assumed. All by default.
 
     Returns
     -------
@@ -80,11 +102,13 @@ def from_rows(
         In the order given.
     """
     stated = AssumptionsTable() if assumptions is None else assumptions
-    complete = [with_assumptions(row, _figures(row), stated, needed) for row in rows]
+    complete = [_complete(row, stated, None if needed is None else _needed(row, stated, needed)) for row in rows]
     return Candidates(
         rows=tuple(rows),
-        actuators=ActuatorSet.from_figures([figures for figures, _ in complete]),
-        assumed=tuple(taken for _, taken in complete),
+        actuators=ActuatorSet.from_figures([figures for figures, _, _ in complete]),
+        assumed=tuple(taken for _, taken, _ in complete),
+        left_out=tuple(inertia.left_out for _, _, inertia in complete),
+        inertia_lacks=tuple(inertia.lacks for _, _, inertia in complete),
     )
 
 
@@ -135,7 +159,7 @@ def find_candidates(study: Study, catalogue: Catalogue, where: str = "") -> Cand
 
 def study_candidates(study: Study, rows: Sequence[Row]) -> Candidates:
     """Convert rows as a study asks for them: with its assumptions, as far as its checks need them."""
-    needed = {figure for check in study.checks for figure in needed_figures(check, study.tension_model)}
+    needed = {check: needed_figures(check, study.tension_model) for check in study.checks}
     return from_rows(rows, study.table.assumptions, needed)
 
 
@@ -170,6 +194,31 @@ def find_actuator(catalogue: Catalogue, actuator: str, assumptions: AssumptionsT
         f"no actuator {actuator!r} in the catalogue; {did_you_mean(actuator, known)} "
         "(`actuator-select catalog list actuators` shows all)"
     )
+
+
+def _complete(
+    row: Row, assumptions: AssumptionsTable, needed: set[str] | None
+) -> tuple[dict[str, float], tuple[Assumed, ...], MotorInertia]:
+    """Figures of one row in SI units, what was taken beyond it, and the inertia at its motor's shaft."""
+    figures, taken = with_assumptions(row, _figures(row), assumptions, needed)
+    inertia = motor_inertia(row, figures, assumptions, needed=needed is None or "rotor_inertia" in needed)
+    figures.pop("rotor_inertia", None)
+    if inertia.value is not None:
+        figures["rotor_inertia"] = inertia.value
+    return figures, (*taken, *inertia.assumed), inertia
+
+
+def _needed(row: Row, assumptions: AssumptionsTable, needed: Mapping[Check, Sequence[str]]) -> set[str]:
+    """Figures that the checks need that apply to a row's motor, and what it takes to see its drum from there."""
+    figures = {
+        figure
+        for check, names in needed.items()
+        if check is not Check.VOLTAGE or not why_no_voltage(row)
+        for figure in names
+    }
+    if "rotor_inertia" in figures and drum_needs_transmission(row, assumptions):
+        figures |= {"ratio", "efficiency"}
+    return figures
 
 
 def _figures(row: Row) -> dict[str, float]:

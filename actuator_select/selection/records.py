@@ -4,6 +4,7 @@ from math import isfinite
 from typing import Any
 
 from actuator_select.selection.assumptions import Assumed
+from actuator_select.selection.part_limits import Exceeded
 from actuator_select.selection.results import CheckVerdict, RankedActuator, Selection
 from actuator_select.selection.simulation import UNITS, Simulation
 
@@ -58,6 +59,8 @@ def _actuator_record(actuator: RankedActuator, poses: int) -> dict[str, Any]:
         "verdict": actuator.verdict.value,
         "checks": {check.value: _check_record(verdict) for check, verdict in actuator.checks.items()},
         "assumptions": [_assumption_record(one) for one in actuator.assumptions],
+        "left_out": list(actuator.left_out),
+        "exceeded_part_limits": [_exceeded_record(one) for one in actuator.exceeded],
     }
 
 
@@ -69,6 +72,17 @@ def _assumption_record(assumed: Assumed) -> dict[str, Any]:
         "unit": assumed.unit,
         "key": assumed.key or None,
         "text": assumed.text,
+    }
+
+
+def _exceeded_record(exceeded: Exceeded) -> dict[str, Any]:
+    return {
+        "column": exceeded.column,
+        "limit": exceeded.limit,
+        "demand": exceeded.demand,
+        "unit": exceeded.unit,
+        "poses": exceeded.positions,
+        "text": exceeded.text,
     }
 
 

@@ -13,6 +13,7 @@ from actuator_select.model.ranking import State, Verdict, meets_share
 from actuator_select.selection.assumptions import Assumed
 from actuator_select.selection.candidates import Candidates
 from actuator_select.selection.cautions import Warned
+from actuator_select.selection.part_limits import Exceeded
 from actuator_select.study import Study
 
 if TYPE_CHECKING:
@@ -84,6 +85,10 @@ class RankedActuator:
         Places of `requirement.must_serve` that are not served, or not known to be.
     assumptions : tuple of Assumed
         What was taken for figures that the catalogue does not state.
+    left_out : tuple of str
+        What the inertia leaves out, because neither catalogue nor study states it.
+    exceeded : tuple of Exceeded
+        Stated limits of gearbox and winch beyond which the demand is; no check and no verdict holds them.
     """
 
     index: int
@@ -97,6 +102,8 @@ class RankedActuator:
     connected_percent: float | None = None
     missed: tuple[str, ...] = ()
     assumptions: tuple[Assumed, ...] = ()
+    left_out: tuple[str, ...] = ()
+    exceeded: tuple[Exceeded, ...] = ()
 
     @property
     def is_upper_bound(self) -> bool:

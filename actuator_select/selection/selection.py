@@ -6,11 +6,12 @@ from actuator_select.database import Catalogue
 from actuator_select.errors import InvalidInput, Problem
 from actuator_select.model.actuation import Check
 from actuator_select.model.demand import Progress
-from actuator_select.model.evaluation import evaluate_actuators, missing_figures
+from actuator_select.model.evaluation import evaluate_actuators
 from actuator_select.model.ranking import State, meets_share, ranking_order, verdicts
 from actuator_select.selection.assumptions import assumption_keys, why_no_voltage
 from actuator_select.selection.candidates import Candidates, find_candidates
 from actuator_select.selection.cautions import demand_warnings
+from actuator_select.selection.part_limits import exceeded_part_limits
 from actuator_select.selection.places import (
     EXACT,
     MissedPlaces,
@@ -149,9 +150,8 @@ def _ranked(result: StudyEvaluation, required: float, missed: Sequence[MissedPla
     evaluation = result.evaluation
     verdict = verdicts(evaluation, required, [one.served for one in missed])
     order = ranking_order(evaluation, verdict)
-    missing = {
-        check: missing_figures(evaluation.actuators, check, result.study.tension_model) for check in evaluation.checks
-    }
+    missing = {check: result.candidates.missing(check, result.study.tension_model) for check in evaluation.checks}
+    exceeded = exceeded_part_limits(result.candidates.rows, evaluation.actuators, evaluation.demand)
     exact = exact_counts(result.study, evaluation, order[:EXACT])
     connected = connected_percents(result.study, evaluation, result.counted, order[:EXACT])
     return tuple(
@@ -167,6 +167,8 @@ def _ranked(result: StudyEvaluation, required: float, missed: Sequence[MissedPla
             connected_percent=connected.get(int(index)),
             missed=missed[index].titles,
             assumptions=result.candidates.assumed[index],
+            left_out=result.candidates.left_out[index],
+            exceeded=exceeded[index],
         )
         for index in order
     )

@@ -148,7 +148,6 @@ def unchecked_limits(rows: Sequence[Row]) -> str:
         [
             "the motor's peak torque, greatest speed and heating",
             *gearbox,
-            f"the inertia of {'gearbox and drum' if geared else 'the drum'}",
             "the winch's tension and speed",
             "the rope's breaking force",
         ]

@@ -11,6 +11,7 @@ from actuator_select.errors import Problem, did_you_mean
 from actuator_select.study.schema import StudyTable
 
 _UNITS = {
+    "gearbox_efficiency_percent": "per cent",  # with bounds of its own
     "_nm_s_per_rad": "N m s/rad",
     "_g_cm2": "g cm²",
     "_rad_per_s2": "rad/s²",

@@ -2,7 +2,7 @@
 
 from typing import Annotated, Literal, Self
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, model_validator
+from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, model_validator
 
 LARGE, SMALL = 1e6, 1e-6  # in any unit of a study; beyond them stands a slip, and arithmetic that overflows
 
@@ -23,6 +23,13 @@ Angles = Annotated[tuple[Number, ...], Field(min_length=1)]
 def _ordered(interval: tuple[float, float] | None, key: str) -> None:
     if interval is not None and interval[0] > interval[1]:
         raise ValueError(f"{key} with the lower end first, not {list(interval)}")
+
+
+def _percent_not_fraction(value: float) -> float:
+    if not 1.0 < value <= 100.0:  # noqa: PLR2004 - per cent
+        slip = f"; a fraction was given, write {100.0 * value:g}" if 0.0 < value <= 1.0 else ""
+        raise ValueError(f"more than 1 and at most 100{slip}")
+    return value
 
 
 class Table(BaseModel):
@@ -275,7 +282,9 @@ class AssumptionsTable(Table):
 
     rotor_inertia_g_cm2: NotNegative | None = None
     viscous_friction_nm_s_per_rad: NotNegative | None = None
-    gearbox_efficiency_percent: Annotated[Positive, Field(le=100.0)] | None = None
+    gearbox_inertia_g_cm2: NotNegative | None = None
+    drum_inertia_kg_m2: NotNegative | None = None
+    gearbox_efficiency_percent: Annotated[Number, AfterValidator(_percent_not_fraction)] | None = None
     gearbox_efficiency_of_maximum: Annotated[Positive, Field(le=1.0)] | None = None
 
 

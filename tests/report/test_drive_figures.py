@@ -107,4 +107,5 @@ def test_the_report_says_what_was_assumed_and_what_does_not_apply(own: Catalogue
     assert "servo *" not in page
     assert "servo: voltage not applicable, because its electrical figures are rms phase values" in page
     stated = render_report(rank(load_study("cpr8"), own, where="id = 'servo'"), own)
-    assert "What was assumed" not in stated
+    assert "The catalogue does not state these figures" not in stated
+    assert "Left out, because neither catalogue nor study states it: inertia of gearbox and drum, for servo." in stated

@@ -33,7 +33,7 @@ def test_the_first_section_has_verdict_weakest_check_pose_and_what_is_not_modell
     assert "What is not modelled Sag and elasticity" in text
     for limits in (
         "Not checked, even where the catalogue states it: the motor's peak torque, greatest speed and heating;",
-        "the gearbox's continuous and intermittent torque and input speed; the inertia of gearbox and drum;",
+        "the gearbox's continuous and intermittent torque and input speed; the winch's tension and speed;",
         "the rope's breaking force.",
     ):
         assert limits in unescape(text)

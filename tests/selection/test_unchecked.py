@@ -29,11 +29,10 @@ def test_the_limits_that_are_named_as_unchecked_change_no_result(own: Catalogue)
             "max_intermittent_torque_nm": 1e-3,
             "max_continuous_input_speed_rpm": 1,
             "max_intermittent_input_speed_rpm": 1,
-            "inertia_input_g_cm2": 1e6,
         },
         **EFFICIENCY,
     )
-    own.add("winches", SOURCE | {"id": "weak", "drum_radius_mm": 80, "max_tension_n": 1, "drum_inertia_kg_m2": 9})
+    own.add("winches", SOURCE | {"id": "weak", "drum_radius_mm": 80, "max_tension_n": 1})
     own.add(
         "actuators",
         SOURCE
@@ -52,4 +51,3 @@ def test_what_a_gearbox_bears_is_named_where_an_actuator_has_one() -> None:
     assert unchecked_limits([direct, geared]) == unchecked_limits([geared])
     assert "gearbox" in unchecked_limits([geared])
     assert "gearbox" not in unchecked_limits([direct])
-    assert "the inertia of the drum" in unchecked_limits([direct])
