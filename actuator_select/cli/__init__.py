@@ -13,6 +13,7 @@ import threading
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from types import FrameType
+from typing import Any
 
 import click
 
@@ -23,6 +24,7 @@ EXIT_DONE = 0
 EXIT_OUR_FAULT = 1
 EXIT_BAD_INPUT = 2
 EXIT_INTERRUPTED = 130
+EXIT_TERMINATED = 143
 OUTPUT_ERRORS = (errno.EPIPE, errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO)  # of a stream that takes no more
 
 COMMANDS = {
@@ -85,18 +87,18 @@ def main(arguments: Sequence[str] | None = None) -> int:
     Returns
     -------
     int
-        0 done, 1 a fault of the program, 2 the question cannot be posed, 130 interrupted.
+        0 done, 1 a fault of the program, 2 the question cannot be posed, 130 interrupted, 143 terminated.
     """
     with _interrupts() as interrupts:
         try:
             _prepare_streams()
-            status = _run(arguments)
+            status = _run(arguments, interrupts)
             sys.stdout.flush()
         except Exception as error:
             if isinstance(error, OSError) and error.errno in OUTPUT_ERRORS:
                 return _output_failed(error)
             if interrupts:  # libraries may turn an interrupt into an error of their own
-                return _say_interrupted()
+                return _say_interrupted(interrupts)
             if os.environ.get("ACTUATOR_SELECT_TRACEBACK"):
                 raise
             return _admit_fault(error)
@@ -112,7 +114,7 @@ def _admit_fault(error: Exception) -> int:
     return EXIT_OUR_FAULT
 
 
-def _run(arguments: Sequence[str] | None) -> int:
+def _run(arguments: Sequence[str] | None, interrupts: Sequence[int]) -> int:
     try:
         typed = list(sys.argv[1:] if arguments is None else arguments)
         command.main(args=typed, prog_name="actuator-select", standalone_mode=False, obj=typed)
@@ -125,7 +127,7 @@ def _run(arguments: Sequence[str] | None) -> int:
         click.echo(f"Error: {error}", err=True)
         return EXIT_BAD_INPUT
     except (click.Abort, KeyboardInterrupt):
-        return _say_interrupted()
+        return _say_interrupted(interrupts)
     except SystemExit:
         # Click leaves so when the reader of a pipe (head, less) has what it wanted, and after shell completion.
         return EXIT_DONE
@@ -144,25 +146,30 @@ def _prepare_streams() -> None:
 
 @contextmanager
 def _interrupts() -> Iterator[list[int]]:
-    """A list that is not empty once Ctrl-C was pressed; KeyboardInterrupt is raised as ever."""
+    """A list of the signals that came, of Ctrl-C and SIGTERM; KeyboardInterrupt is raised for both."""
     seen: list[int] = []
 
     def note(number: int, frame: FrameType | None) -> None:
         seen.append(number)
         signal.default_int_handler(number, frame)
 
+    usual: dict[signal.Signals, Any] = {signal.SIGINT: signal.default_int_handler, signal.SIGTERM: signal.SIG_DFL}
     in_main_thread = threading.current_thread() is threading.main_thread()
-    if not in_main_thread or signal.getsignal(signal.SIGINT) is not signal.default_int_handler:
-        yield seen  # signals are somebody else's, or ignored as in a shell's background jobs
-        return
-    before = signal.signal(signal.SIGINT, note)
+    # Others are somebody else's, or ignored as in a shell's background jobs.
+    ours = [one for one, handler in usual.items() if in_main_thread and signal.getsignal(one) is handler]
+    for one in ours:
+        signal.signal(one, note)
     try:
         yield seen
     finally:
-        signal.signal(signal.SIGINT, before)
+        for one in ours:
+            signal.signal(one, usual[one])
 
 
-def _say_interrupted() -> int:
+def _say_interrupted(interrupts: Sequence[int]) -> int:
+    if signal.SIGTERM in interrupts:
+        click.echo("Terminated.", err=True)
+        return EXIT_TERMINATED
     click.echo("Interrupted.", err=True)
     return EXIT_INTERRUPTED
 

@@ -65,7 +65,14 @@ class Catalogue(ReadableCatalogue):
         What opening it did that the user should know.
     """
 
-    def add(self, kind: str, values: Mapping[str, object], source: Mapping[str, object] | None = None) -> Row:
+    def add(
+        self,
+        kind: str,
+        values: Mapping[str, object],
+        source: Mapping[str, object] | None = None,
+        *,
+        dry_run: bool = False,
+    ) -> Row:
         """Add one row, and the source of its figures where that is new.
 
         Parameters
@@ -76,11 +83,13 @@ class Catalogue(ReadableCatalogue):
             Numbers or texts by column name, in the columns' units.
         source : mapping of str to object, optional
             A new row of ``sources`` to be added first.
+        dry_run : bool
+            Check everything and write nothing.
 
         Returns
         -------
         dict
-            The row as the catalogue holds it.
+            The row as the catalogue holds it, or would.
 
         Raises
         ------
@@ -88,7 +97,7 @@ class Catalogue(ReadableCatalogue):
             With everything that is wrong.
         """
         found = find_kind(kind)
-        with writing(self._engine) as connection:
+        with writing(self._engine, keep=not dry_run) as connection:
             row_id = add_row(connection, found, values, source)
             return fetch_row(connection, found, row_id)
 
@@ -250,6 +259,8 @@ class Catalogue(ReadableCatalogue):
         values: Mapping[str, object] = MappingProxyType({}),
         kind: str | None = None,
         source: Mapping[str, object] | None = None,
+        *,
+        dry_run: bool = False,
     ) -> tuple[str, Row]:
         """Add a row that starts from another one, without what a check of the other one's figures said.
 
@@ -261,7 +272,7 @@ class Catalogue(ReadableCatalogue):
             Id of the new row, and its name where names are unique and `values` has none.
         values : mapping of str to object, optional
             Columns with other values.
-        kind, source
+        kind, source, dry_run
             As for `edit`.
 
         Returns
@@ -276,7 +287,7 @@ class Catalogue(ReadableCatalogue):
         UnknownName
             If there is no such row, or several kinds have it.
         """
-        with writing(self._engine) as connection:
+        with writing(self._engine, keep=not dry_run) as connection:
             found, _ = copy_row(connection, row_id, new_id, values, kind, source)
             return found.name, fetch_row(connection, found, new_id)
 

@@ -22,13 +22,13 @@ _ROWS_PER_PIECE = 500
 KindRows = tuple[Kind, Iterable[Mapping[str, Value]]]
 
 
-def csv_pieces(kind: Kind, rows: Iterable[Mapping[str, Value]]) -> Iterator[str]:
-    """Rows as CSV with every column that users fill, first the header.
+def csv_pieces(names: Sequence[str], rows: Iterable[Mapping[str, Value]]) -> Iterator[str]:
+    """Rows as CSV, first the header.
 
     Parameters
     ----------
-    kind : Kind
-        Of the rows.
+    names : sequence of str
+        Columns to write.
     rows : iterable of mapping
         Values by column.
 
@@ -37,7 +37,6 @@ def csv_pieces(kind: Kind, rows: Iterable[Mapping[str, Value]]) -> Iterator[str]
     str
         Piece of the file.
     """
-    names = [field.name for field in kind.fields]
     yield write_csv(names, ())
     records = ([write_value(row[name]) for name in names] for row in rows)
     while first := next(records, None):
@@ -73,6 +72,34 @@ def json_pieces(kinds: Sequence[KindRows], fingerprint: str) -> Iterator[str]:
     yield "\n}\n"
 
 
+def list_json_pieces(kind: Kind, rows: Iterable[Mapping[str, Value]], fingerprint: str) -> Iterator[str]:
+    """Rows of a list as one strict JSON object, under the catalogue's own column names.
+
+    Parameters
+    ----------
+    kind : Kind
+        Of the rows.
+    rows : iterable of mapping
+        Values by column; an unlimited figure becomes the word, an unknown one null.
+    fingerprint : str
+        Of the catalogue that the rows are from.
+
+    Yields
+    ------
+    str
+        Piece of the text.
+    """
+    head = {"kind": kind.name, "catalogue": {"fingerprint": fingerprint}}
+    yield json.dumps(head, indent=2)[:-2] + ',\n  "rows": ['
+    between = "\n"
+    for row in rows:
+        record = {name: _plain(value) for name, value in row.items()}
+        text = json.dumps(record, indent=2, ensure_ascii=False, allow_nan=False)
+        yield f"{between}    " + text.replace("\n", "\n    ")
+        between = ",\n"
+    yield "]\n}\n" if between == "\n" else "\n  ]\n}\n"
+
+
 def json_record(kind: Kind, row: Mapping[str, Value]) -> dict[str, object]:
     """One row of a JSON file: what is known of it, by its names there."""
     return {
@@ -83,10 +110,14 @@ def json_record(kind: Kind, row: Mapping[str, Value]) -> dict[str, object]:
 
 
 def _json_value(kind: Kind, field: Field, value: Value) -> object:
-    plain = UNLIMITED if isinstance(value, float) and isinf(value) else value
+    plain = _plain(value)
     if field.is_text or opc_name(kind, field.name) == field.name:
         return plain
     return {"Value": plain, "EngineeringUnits": field.unit}
+
+
+def _plain(value: Value) -> Value:
+    return UNLIMITED if isinstance(value, float) and isinf(value) else value
 
 
 def make_folder(folder: Path) -> None:

@@ -1,6 +1,7 @@
 """Which row somebody means."""
 
 from collections.abc import Sequence
+from fnmatch import fnmatchcase
 
 import sqlalchemy as sa
 
@@ -60,3 +61,8 @@ def locate_ever(connection: sa.Connection, row_id: str, kind: str | None = None)
         if rows := queries.fetch_past_holders(connection, row_id, found):
             return rows
         raise
+
+
+def matches(pattern: str, row_id: str) -> bool:
+    """Whether an id is what a compatibility's pattern speaks of; ``*`` stands for any characters."""
+    return fnmatchcase(row_id, pattern)  # its other wildcards cannot stand in a pattern of the catalogue

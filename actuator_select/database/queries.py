@@ -83,15 +83,30 @@ def fetch_rows(
     kind: Kind,
     condition: sa.ColumnElement[bool] | None = None,
     order: Sequence[sa.ColumnElement[Any]] = (),
+    columns: Sequence[Column] = (),
+    limit: int | None = None,
 ) -> list[Row]:
-    """Rows that meet `condition`, in `order` and then by id."""
-    columns = columns_of(kind)
+    """Rows that meet `condition`, in `order` and then by id, or the first `limit` of them; by default every column."""
+    return list(stream_rows(connection, kind, condition, order, columns, limit))
+
+
+def stream_rows(
+    connection: sa.Connection,
+    kind: Kind,
+    condition: sa.ColumnElement[bool] | None = None,
+    order: Sequence[sa.ColumnElement[Any]] = (),
+    columns: Sequence[Column] = (),
+    limit: int | None = None,
+) -> Iterator[Row]:
+    """Rows as of `fetch_rows`, which need not fit into memory together."""
+    columns = columns or columns_of(kind)
     query = sa.select(*(column.expression.label(column.name) for column in columns)).select_from(_source(kind))
     if condition is not None:
         query = query.where(condition)
-    query = query.order_by(*order, TABLES[kind.name].c.id)
+    query = query.order_by(*order, TABLES[kind.name].c.id).limit(limit)
     names = [column.name for column in columns]
-    return [dict(zip(names, values, strict=True)) for values in connection.execute(query)]
+    for values in connection.execution_options(yield_per=_ROWS_PER_FETCH).execute(query):
+        yield dict(zip(names, values, strict=True))
 
 
 def fetch_row(connection: sa.Connection, kind: Kind, row_id: str) -> Row:
@@ -159,9 +174,13 @@ def fetch_names(connection: sa.Connection, kind: Kind) -> dict[str, str]:
     return names
 
 
-def count_rows(connection: sa.Connection, kind: Kind) -> int:
-    """Number of rows of a kind."""
-    return int(connection.scalar(sa.select(sa.func.count()).select_from(TABLES[kind.name])) or 0)
+def count_rows(connection: sa.Connection, kind: Kind, condition: sa.ColumnElement[bool] | None = None) -> int:
+    """Number of rows of a kind: all, or those that meet `condition`."""
+    query = sa.select(sa.func.count())
+    query = (
+        query.select_from(TABLES[kind.name]) if condition is None else query.select_from(_source(kind)).where(condition)
+    )
+    return int(connection.scalar(query) or 0)
 
 
 def insert_rows(connection: sa.Connection, kind: Kind, rows: Sequence[Mapping[str, Value]]) -> None:

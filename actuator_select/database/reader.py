@@ -1,11 +1,11 @@
 """Reading a catalogue: rows, parts, sources, history, exports."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import AbstractContextManager
 from pathlib import Path
 from tempfile import SpooledTemporaryFile
 from types import TracebackType
-from typing import TYPE_CHECKING, Any, Self
+from typing import TYPE_CHECKING, Self
 
 import sqlalchemy as sa
 
@@ -13,10 +13,11 @@ from actuator_select._resources import replacing
 from actuator_select.database import queries
 from actuator_select.database.connection import reading
 from actuator_select.database.content import catalogue_digest
-from actuator_select.database.export import csv_pieces, json_pieces, make_folder
+from actuator_select.database.export import csv_pieces, json_pieces, list_json_pieces, make_folder
+from actuator_select.database.expressions import chosen_columns, condition_of, order_of
 from actuator_select.database.history import Change
-from actuator_select.database.kinds import KINDS, find_kind
-from actuator_select.database.naming import locate, locate_ever
+from actuator_select.database.kinds import COMPATIBILITIES, KINDS, find_kind
+from actuator_select.database.naming import locate, locate_ever, matches
 from actuator_select.database.queries import Row
 
 if TYPE_CHECKING:
@@ -60,7 +61,9 @@ class ReadableCatalogue:
         """Address of the database, its password hidden."""
         return self._engine.url.render_as_string(hide_password=True)
 
-    def rows(self, kind: str, where: str = "", sort: str = "") -> list[Row]:
+    def rows(
+        self, kind: str, where: str = "", sort: str = "", columns: str = "", limit: int | None = None
+    ) -> list[Row]:
         """Rows of one kind.
 
         Parameters
@@ -71,6 +74,10 @@ class ReadableCatalogue:
             Condition over column names, such as ``rated_power_w >= 50 and manufacturer = 'maxon'``.
         sort : str, optional
             Columns to sort by, such as ``rated_torque_nm, -mass_kg``; by id by default.
+        columns : str, optional
+            Columns to read, such as ``id, mass_kg``; every column by default.
+        limit : int, optional
+            Number of rows to read, the first ones; all by default.
 
         Returns
         -------
@@ -83,16 +90,53 @@ class ReadableCatalogue:
         UnknownName
             If there is no such kind.
         InvalidExpression
-            If the condition or the order cannot be understood.
+            If the condition, the order or the columns cannot be understood.
         """
         found = find_kind(kind)
-        condition, order = _condition(found, where), list[sa.ColumnElement[Any]]()
-        if sort:
-            from actuator_select.database.where import compile_sort
-
-            order = compile_sort(sort, queries.columns_of(found))
+        asked = (condition_of(found, where), order_of(found, sort), chosen_columns(found, columns), limit)
         with reading(self._engine) as connection:
-            return queries.fetch_rows(connection, found, condition, order)
+            return queries.fetch_rows(connection, found, *asked)
+
+    def list_pieces(
+        self,
+        file_format: str,
+        kind: str,
+        where: str = "",
+        sort: str = "",
+        columns: str = "",
+        limit: int | None = None,
+    ) -> Iterator[str]:
+        """Rows as of `rows` as CSV or JSON text, piece by piece: many rows need not fit into memory.
+
+        Parameters
+        ----------
+        file_format : str
+            ``csv`` or ``json``.
+        kind, where, sort, columns, limit
+            As for `rows`.
+
+        Yields
+        ------
+        str
+            Piece of the text.
+
+        Raises
+        ------
+        UnknownName, InvalidExpression
+            As for `rows`.
+        """
+        found = find_kind(kind)
+        chosen = chosen_columns(found, columns) or queries.columns_of(found)
+        asked = (condition_of(found, where), order_of(found, sort), chosen, limit)
+        names = [column.name for column in chosen]
+
+        def pieces(connection: sa.Connection) -> Iterator[str]:
+            if file_format == "csv":
+                return csv_pieces(names, queries.stream_rows(connection, found, *asked))
+            fingerprint = _fingerprint(connection)
+            return list_json_pieces(found, queries.stream_rows(connection, found, *asked), fingerprint)
+
+        return self._spooled(pieces)
 
     def frame(self, kind: str, where: str = "", sort: str = "") -> "pd.DataFrame":
         """Rows of one kind as a DataFrame; parameters and errors as for `rows`.
@@ -163,10 +207,21 @@ class ReadableCatalogue:
         with reading(self._engine) as connection:
             return queries.fetch_uses(connection, find_kind(kind), [row_id])
 
-    def count(self, kind: str) -> int:
-        """Count the rows of one kind."""
+    def fits(self, row_id: str, kind: str) -> list[Row]:
+        """Compatibilities that speak of a motor or a gearbox, by their id; none of any other kind."""
+        column = f"{find_kind(kind).singular}_pattern"
+        if column not in COMPATIBILITIES.spellings:
+            return []
         with reading(self._engine) as connection:
-            return queries.count_rows(connection, find_kind(kind))
+            rows = queries.stream_rows(connection, COMPATIBILITIES)
+            return [row for row in rows if matches(str(row[column]), row_id)]
+
+    def count(self, kind: str, where: str = "") -> int:
+        """Count the rows of one kind: all, or those that meet a condition, as for `rows`."""
+        found = find_kind(kind)
+        condition = condition_of(found, where)
+        with reading(self._engine) as connection:
+            return queries.count_rows(connection, found, condition)
 
     def fingerprint(self) -> str:
         """SHA-256 of everything that the catalogue states.
@@ -258,14 +313,8 @@ class ReadableCatalogue:
             If one file cannot hold what is asked for.
         """
         kinds = _kinds(kind, where, file_format)
-        condition = _condition(kinds[0], where)
-        # Whoever takes the pieces may wait, as a pager does; what is read must not keep others from writing meanwhile.
-        with SpooledTemporaryFile(_SPOOLED_BYTES, "w+", encoding="utf-8", newline="") as spool:
-            with reading(self._engine) as connection:
-                spool.writelines(_pieces(connection, file_format, kinds, condition))
-            spool.seek(0)
-            while piece := spool.read(_CHARACTERS_PER_PIECE):
-                yield piece
+        condition = condition_of(kinds[0], where)
+        return self._spooled(lambda connection: _pieces(connection, file_format, kinds, condition))
 
     def export_file(self, path: str | Path, file_format: str, kind: str | None = None, where: str = "") -> None:
         """Write rows to a file, whole or not at all.
@@ -289,7 +338,7 @@ class ReadableCatalogue:
             As for `export_pieces`.
         """
         kinds = _kinds(kind, where, file_format)
-        condition = _condition(kinds[0], where)
+        condition = condition_of(kinds[0], where)
         with replacing(Path(path)) as file, reading(self._engine) as connection:
             if file_format == "xlsx":
                 from actuator_select.database.workbook_export import write_workbook
@@ -321,9 +370,19 @@ class ReadableCatalogue:
         with reading(self._engine) as connection:
             for file, kind in zip(files, KINDS.values(), strict=True):
                 with replacing(file) as opened:
-                    pieces = csv_pieces(kind, queries.stream_own_rows(connection, kind))
+                    names = [field.name for field in kind.fields]
+                    pieces = csv_pieces(names, queries.stream_own_rows(connection, kind))
                     opened.writelines(piece.encode() for piece in pieces)
         return files
+
+    def _spooled(self, pieces: Callable[[sa.Connection], Iterator[str]]) -> Iterator[str]:
+        # Whoever takes the pieces may wait, as a pager does; what is read must not keep others from writing meanwhile.
+        with SpooledTemporaryFile(_SPOOLED_BYTES, "w+", encoding="utf-8", newline="") as spool:
+            with reading(self._engine) as connection:
+                spool.writelines(pieces(connection))
+            spool.seek(0)
+            while piece := spool.read(_CHARACTERS_PER_PIECE):
+                yield piece
 
 
 def _kinds(kind: str | None, where: str, file_format: str) -> list["Kind"]:
@@ -341,17 +400,9 @@ def _pieces(
 ) -> Iterator[str]:
     streams = [(one, queries.stream_own_rows(connection, one, condition)) for one in kinds]
     if file_format == "csv":
-        return csv_pieces(*streams[0])
+        kind, rows = streams[0]
+        return csv_pieces([field.name for field in kind.fields], rows)
     return json_pieces(streams, _fingerprint(connection))
-
-
-def _condition(kind: "Kind", where: str) -> sa.ColumnElement[bool] | None:
-    if not where:
-        return None
-    # Building the parser takes longer than reading a small catalogue.
-    from actuator_select.database.where import compile_condition
-
-    return compile_condition(where, queries.columns_of(kind))
 
 
 def _fingerprint(connection: sa.Connection) -> str:

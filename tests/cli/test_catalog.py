@@ -1,5 +1,6 @@
 """``actuator-select catalog``: what it prints, where, and with which exit status."""
 
+import csv
 import json
 import shutil
 from collections.abc import Callable, Iterator
@@ -11,7 +12,10 @@ import pytest
 from actuator_select.cli import main
 from actuator_select.cli.catalog import command
 from actuator_select.database import Catalogue, open_catalogue
+from actuator_select.database.connection import writing
+from actuator_select.database.history import add_rows
 from actuator_select.database.kinds import KINDS
+from actuator_select.database.queries import Row, fetch_rows
 from actuator_select.database.reader import ReadableCatalogue
 from actuator_select.database.shipped import read_shipped
 
@@ -128,7 +132,85 @@ def test_a_minus_begins_with_the_greatest(run: Run) -> None:
 def test_a_limit_says_how_many_there_are(run: Run) -> None:
     _, out, err = run("list", "motors", "--limit", "2", "--columns", "id")
     assert out.count("beckhoff") == 2
-    assert err == f"2 of {SHIPPED_MOTORS} motors; a greater --limit, or none, shows more than 2\n"
+    more = "a greater --limit shows more, --where chooses, --format csv gives all"
+    assert err == f"2 of {SHIPPED_MOTORS} motors; {more}\n"
+
+
+@pytest.fixture
+def many(catalogue: Catalogue) -> Catalogue:
+    """A catalogue with 700 ropes that no list shows at once; r-0003 says that it is to be looked at."""
+    ropes = [{"id": f"r-{number:04}", "source_id": SOURCE, "origin": "user"} for number in range(700)]
+    ropes[3]["check_status"] = "flag"
+    with writing(catalogue._engine) as connection:  # noqa: SLF001
+        add_rows(connection, KINDS["ropes"], ropes, by="test")
+    return catalogue
+
+
+@pytest.mark.parametrize("columns", [[], ["--columns", "id,diameter_mm"]])
+def test_a_table_ends_after_500_rows_and_tells_how_many_there_are(
+    run: Run, many: Catalogue, columns: list[str]
+) -> None:
+    where = ["--where", "id contains 'r-0' and diameter_mm is unknown"]
+    _, out, err = run("list", "ropes", *where, *columns)
+    assert (out.count("r-0"), "r-0499" in out) == (500, True)
+    assert err.startswith("500 of 700 ropes; a greater --limit shows more")
+    assert run("list", "ropes", *where, *columns, "--limit", "600")[1].count("r-0") == 600
+    assert run("list", "ropes", *where, *columns, "--limit", "700")[2] == "700 ropes\n"
+    assert many.count("ropes") > 700
+
+
+def test_a_table_reads_no_more_rows_than_it_shows(run: Run, many: Catalogue, monkeypatch: pytest.MonkeyPatch) -> None:
+    assert many.count("ropes", "id contains 'r-0'") == 700
+    read: list[int] = []
+
+    def counted(*arguments: object) -> list[Row]:
+        found = fetch_rows(*arguments)
+        read.append(len(found))
+        return found
+
+    monkeypatch.setattr("actuator_select.database.queries.fetch_rows", counted)
+    out = run("list", "ropes", "--where", "id contains 'r-0'", "--columns", "id")[1]
+    assert (out.count("r-0"), read) == (500, [500])
+
+
+@pytest.mark.parametrize("file_format", ["csv", "json"])
+def test_csv_and_json_give_every_row_unless_limited(run: Run, many: Catalogue, file_format: str) -> None:
+    arguments = ["list", "ropes", "--where", "id contains 'r-0'", "--columns", "id,id,mass_kg_per_m"]
+    assert many.count("ropes", "id contains 'r-0'") == 700
+
+    def ids(*more: str) -> list[str]:
+        out = run(*arguments, "--format", file_format, *more)[1]
+        if file_format == "json":
+            return [row["id"] for row in json.loads(out)["rows"]]
+        return [row["id"] for row in csv.DictReader(out.splitlines())]
+
+    assert ids() == [f"r-{number:04}" for number in range(700)]
+    assert ids("--limit", "2", "--sort", "-id") == ["r-0699", "r-0698"]
+    assert ids("--where", "id = 'no-rope'") == []
+
+
+ODD_TEXT = "a\r\nb\tc\u202ed\u2066e"
+
+
+def test_control_characters_are_escaped_for_people_and_kept_for_programs(run: Run, catalogue: Catalogue) -> None:
+    catalogue.add("ropes", {"id": "odd", "name": ODD_TEXT, "notes": "one\ntwo\rthree", "source_id": SOURCE})
+    catalogue.edit("odd", {"manufacturer": ODD_TEXT})
+    where = ["--where", "id = 'odd'"]
+    for arguments in (["list", "ropes", *where], ["history", "odd"]):
+        out = run(*arguments)[1]
+        assert r"a\r\nb\tc\u202ed\u2066e" in out
+        assert set(out) & set("\r\t\u202e\u2066") == set()
+    out = run("show", "odd")[1]
+    assert r"b\tc\u202ed\u2066e" in out
+    assert set(out) & set("\r\t\u202e\u2066") == set()
+    assert [line.split()[-1] for line in out.splitlines() if line.endswith(("one", r"two\rthree"))] == [
+        "one",
+        r"two\rthree",
+    ]
+    (row,) = json.loads(run("list", "ropes", *where, "--format", "json")[1])["rows"]
+    assert row["name"] == ODD_TEXT
+    assert f'"{ODD_TEXT}"' in run("list", "ropes", *where, "--columns", "name", "--format", "csv")[1]
+    assert json.loads(run("show", "odd", "--format", "json")[1])["row"]["name"] == ODD_TEXT
 
 
 @pytest.mark.parametrize(

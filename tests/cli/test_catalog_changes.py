@@ -211,7 +211,7 @@ def test_remove_says_what_is_left_of_the_row(run: Run) -> None:
     status, out, err = run("remove", "m")
     assert (status, out) == (0, "")
     assert err == (
-        "Removed motor m.\nAll its values, to add it again: actuator-select catalog history m --kind motors\n"
+        "Removed motor m.\nAll its values, to add it again: actuator-select catalog history m --kind motors --all\n"
     )
     _, _, err = run("remove", "Actuator 1", "--yes")
     assert err.startswith("Removed actuator filipovic-kevac-2018-1.\nThe program ships a row of this id; it does not")
@@ -259,7 +259,43 @@ def test_history_is_a_table_with_units(run: Run) -> None:
     lines = [line.split() for line in out.splitlines() if "motors m" in line]
     assert lines[0][2:] == ["catalog", "add", "motors", "m", "added"]
     assert lines[1][2:] == ["catalog", "edit", "motors", "m", "changed", "rated_power_w", "150", "160", "W"]
-    assert ["catalog", "remove", "motors", "m", "removed", "rated_power_w", "160", "–", "W"] in [x[2:] for x in lines]
+    assert [line[2:] for line in lines[2:]] == [
+        ["catalog", "remove", "motors", "m", "removed", "5", "values", "(--all", "lists", "them)", "–"]
+    ]
+
+
+def test_history_lists_the_values_of_a_removed_row_on_request(run: Run) -> None:
+    run("remove", "m")
+    lines = [line.split()[2:] for line in run("history", "m", "--all")[1].splitlines() if "removed" in line]
+    assert len(lines) == 5
+    assert ["catalog", "remove", "motors", "m", "removed", "rated_power_w", "150", "–", "W"] in lines
+    changes = json.loads(run("history", "m", "--format", "json")[1])["changes"]
+    assert sum(change["action"] == "removed" for change in changes) == 5
+
+
+@pytest.mark.parametrize(
+    "command",
+    [["add", "motor", "id=n", f"source_id={SOURCE}"], ["edit", "m"], ["copy", "m", "--as", "n"]],
+    ids=lambda command: command[0],
+)
+def test_a_field_without_a_value_is_told_with_every_other_objection(
+    run: Run, catalogue: Catalogue, command: list[str]
+) -> None:
+    before = catalogue.fingerprint()
+    fields = ["nominal_voltage_v=abc", "mass_kg", "x=1", "rated_power_w=2", "rated_power_w=3"]
+    status, out, err = run(*command, *fields)
+    assert (status, out) == (2, "")
+    heading, *objections = err.splitlines()
+    assert heading == "Error: nothing was written"
+    assert [line.split(":")[0].strip() for line in objections] == [
+        "'mass_kg'",
+        "rated_power_w",
+        "nominal_voltage_v",
+        "x",
+    ]
+    status, _, err = run(*command, "mass_kg")
+    assert (status, err.count("mass_kg")) == (2, 1)
+    assert catalogue.fingerprint() == before
 
 
 def test_history_is_json(run: Run) -> None:

@@ -192,6 +192,21 @@ def test_show_says_what_uses_a_part_and_a_source(run: Run) -> None:
         assert words in out
 
 
+def test_show_says_what_fits_a_motor_and_a_gearbox(run: Run) -> None:
+    run("add", "gearbox", "id=gp-1", "ratio=5", f"source_id={SOURCE}")
+    run("add", "motor", *SERVO)
+    for number, pattern in enumerate(("acme-*", "*-2026", "other-*", "acme", SERVO[0][3:], "*a*", "*", "a*6", "ACME*")):
+        fields = [f"id=c{number}", f"motor_pattern={pattern}", "gearbox_pattern=gp-*", f"source_id={SOURCE}"]
+        assert run("add", "compatibility", *fields)[0] == 0
+    lines = [line.split()[1:] for line in run("show", SERVO[0][3:])[1].splitlines() if line.startswith("fits ")]
+    assert lines[:5] == [["gearboxes", "gp-*", "(compatibility", f"c{number})"] for number in (0, 1, 4, 5, 6)]
+    assert lines[5][:3] == ["and", "1", "more;"]
+    lines = [line.split()[1:] for line in run("show", "gp-1")[1].splitlines() if line.startswith("fits ")]
+    assert lines[0] == ["motors", "acme-*", "(compatibility", "c0)"]
+    assert lines[5][:3] == ["and", "4", "more;"]
+    assert "\nfits " not in run("show", "filipovic-kevac-2018-winch")[1]
+
+
 @pytest.mark.parametrize("kind", list(KINDS))
 def test_every_column_stands_in_one_group(kind: str) -> None:
     grouped = [name for names in GROUPS[kind].values() for name in names]

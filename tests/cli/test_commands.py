@@ -5,8 +5,10 @@ import json
 import os
 import re
 import shlex
+import signal
 import subprocess
 import sys
+import time
 from collections.abc import Callable
 from pathlib import Path
 
@@ -268,6 +270,31 @@ def test_ctrl_c_is_status_130(run: Run, monkeypatch: pytest.MonkeyPatch) -> None
     assert status == 130
     assert out == ""
     assert "Interrupted" in err
+
+
+@pytest.mark.parametrize(
+    ("how", "status", "word"), [(signal.SIGTERM, 143, "Terminated."), (signal.SIGINT, 130, "Interrupted.")]
+)
+def test_an_import_that_is_stopped_by_a_signal_leaves_nothing(
+    run: Run, tmp_path: Path, how: signal.Signals, status: int, word: str
+) -> None:
+    assert run("catalog", "list", "sources")[0] == 0
+    rows = [f"m{number},150,3000,0.48,filipovic-kevac-2018\n" for number in range(200_000)]
+    path = tmp_path / "motors.csv"
+    path.write_text("id,rated_power_w,rated_speed_rpm,rated_torque_nm,source_id\n" + "".join(rows))
+    command = [sys.executable, "-m", "actuator_select", "catalog", "import", str(path)]
+    journal = tmp_path / "catalogue.db-journal"
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
+        deadline = time.monotonic() + 60.0
+        while not journal.exists():
+            assert process.poll() is None
+            assert time.monotonic() < deadline
+            time.sleep(0.01)
+        process.send_signal(how)
+        _, err = process.communicate(timeout=60)
+    assert (process.returncode, err.strip()) == (status, word)
+    assert not journal.exists()
+    assert run("catalog", "list", "motors", "--where", "id = 'm0'")[2] == "0 motors\n"
 
 
 def test_a_fault_of_the_program_is_status_1_and_says_so(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:

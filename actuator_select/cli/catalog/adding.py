@@ -1,9 +1,11 @@
 """``actuator-select catalog add``: from the command line, or question by question."""
 
+from functools import partial
+
 import click
 
 from actuator_select.cli import console, options
-from actuator_select.cli.catalog.interview import interview, split_fields
+from actuator_select.cli.catalog.interview import interview, write_fields
 from actuator_select.cli.catalog.session import findings_of, opened, warn_of
 
 
@@ -30,10 +32,9 @@ def add(kind: str, fields: tuple[str, ...], database: str | None) -> None:
     from actuator_select.database.kinds import find_kind
 
     found = find_kind(kind)
-    values, source = split_fields(fields)
     with opened(database) as catalogue:
         if fields:
-            row = catalogue.add(found.name, values, source)
+            row = write_fields(fields, partial(catalogue.add, found.name))
         else:
             console.say(
                 f"{found.description}. Press Enter where a figure is unknown, Ctrl-C to stop; nothing is half-added."

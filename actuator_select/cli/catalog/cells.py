@@ -10,18 +10,16 @@ _BETWEEN = 3  # characters between columns
 
 
 def printed(value: Any) -> str:  # noqa: ANN401 - any value of the catalogue
-    """A value as text, rounded where it is long; an unknown one as a dash."""
-    from actuator_select.database.cells import write_value
-
-    text = UNKNOWN if value is None else write_value(value)
+    """A value as text, rounded where it is long, its control characters escaped; an unknown one as a dash."""
+    text = exact(value)
     return f"{value:.6g}" if isinstance(value, float) and len(text) > _PRINTED_LENGTH else text
 
 
 def exact(value: Any) -> str:  # noqa: ANN401 - any value of the catalogue
-    """A value as text with all its digits, so that two different ones never look the same."""
-    from actuator_select.database.cells import write_value
+    """A value as text with all its digits, so that two different ones never look the same; no control characters."""
+    from actuator_select.database.cells import ascii_controls, write_value
 
-    return UNKNOWN if value is None else write_value(value)
+    return UNKNOWN if value is None else ascii_controls(write_value(value))
 
 
 def shortened(text: str) -> str:

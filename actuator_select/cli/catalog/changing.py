@@ -1,13 +1,14 @@
 """``actuator-select catalog edit``, ``copy`` and ``remove``."""
 
 import sys
+from functools import partial
 from typing import TYPE_CHECKING
 
 import click
 
 from actuator_select.cli import console, options
 from actuator_select.cli.catalog.cells import exact
-from actuator_select.cli.catalog.interview import EMPTIED, Values, interview, split_fields
+from actuator_select.cli.catalog.interview import EMPTIED, Values, interview, write_fields
 from actuator_select.cli.catalog.session import findings_of, opened, warn_of
 
 if TYPE_CHECKING:
@@ -42,10 +43,9 @@ def edit(row_id: str, fields: tuple[str, ...], kind: str | None, dry_run: bool, 
         actuator-select catalog edit my-motor rated_power_w=110 \\
             source.document="Data sheet, 2nd edition" source.url=https://example.org/2.pdf source.date=2026-12
     """
-    values, source = split_fields(fields)
     with opened(database) as catalogue:
         if fields:
-            done = catalogue.edit(row_id, values, kind, source, dry_run=dry_run)
+            done = write_fields(fields, partial(catalogue.edit, row_id, kind=kind), dry_run=dry_run)
         else:
             done = _edit_by_questions(catalogue, row_id, kind, dry_run=dry_run)
         findings = findings_of(catalogue, done.kind, [done.row]) if done.differences else []
@@ -74,9 +74,8 @@ def copy(row_id: str, fields: tuple[str, ...], new_id: str, kind: str | None, da
     """
     from actuator_select.database.kinds import find_kind
 
-    values, source = split_fields(fields)
     with opened(database) as catalogue:
-        found, row = catalogue.copy(row_id, new_id, values, kind, source)
+        found, row = write_fields(fields, partial(catalogue.copy, row_id, new_id, kind=kind))
         findings = findings_of(catalogue, found, [row])
     console.say(f"Added {find_kind(found).singular} {new_id}, copied from {row_id}.")
     console.say(f"Next: actuator-select catalog show {new_id} --kind {found}")
@@ -114,7 +113,9 @@ def remove(row_id: str, kind: str | None, yes: bool, database: str | None) -> No
     console.say(f"Removed {find_kind(removed.kind).singular} {own_id}.")
     if removed.is_of_the_program:
         console.say("The program ships a row of this id; it does not bring it back by itself.")
-    console.say(f"All its values, to add it again: actuator-select catalog history {own_id} --kind {removed.kind}")
+    console.say(
+        f"All its values, to add it again: actuator-select catalog history {own_id} --kind {removed.kind} --all"
+    )
 
 
 def _change_text(difference: "Difference") -> str:

@@ -1,6 +1,7 @@
 """``actuator-select catalog history`` and ``diff``."""
 
 from dataclasses import asdict
+from itertools import groupby
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -21,17 +22,20 @@ _LISTED_ROWS = 20  # rows of one kind that the table names; JSON names all
 @click.command("history")
 @click.argument("row_id", metavar="ID")
 @click.option("--kind", metavar="KIND", help="Kind of the row, where several kinds have or had the id.")
+@click.option("--all", "every", is_flag=True, help="List every value of a removed row; JSON always does.")
 @options.format_option("table", "json")
 @options.database_option
-def history(row_id: str, kind: str | None, output_format: str, database: str | None) -> None:
+def history(row_id: str, kind: str | None, every: bool, output_format: str, database: str | None) -> None:
     """Show what happened to a row: when (UTC), by what, and every value before and after.
 
     ID is the row's id, also of a row that was removed; an actuator's name does as well, also a former one. A
-    catalogue made by an older program has kept its history only since a newer one opened it.
+    catalogue made by an older program has kept its history only since a newer one opened it. A removal is one line of
+    the table; --all lists what the row said.
 
     \b
     Examples:
         actuator-select catalog history my-motor
+        actuator-select catalog history my-motor --all
         actuator-select catalog history my-motor --kind motors --format json
     """
     with opened(database) as catalogue:
@@ -42,7 +46,7 @@ def history(row_id: str, kind: str | None, output_format: str, database: str | N
         console.emit_json({"id": row_id, "is_complete": is_complete, "changes": [asdict(change) for change in changes]})
         return
     if changes:
-        rows = [_history_cells(change) for change in changes]
+        rows = [_history_cells(change) for change in changes] if every else _folded_cells(changes)
         console.emit_table(["when (UTC)", "by", "row", "what", "column", "old", "new", "unit"], rows)
     if not is_complete:
         after = "what is listed happened since" if changes else "nothing has happened to it since"
@@ -93,12 +97,27 @@ def diff(other: str, kind: str | None, output_format: str, database: str | None)
 
 
 def _history_cells(change: "Change") -> list[str]:
-    when = change.changed_at.replace("T", " ").removesuffix("Z")
-    cells = [when, change.changed_by, f"{change.kind} {change.row_id}", change.action]
     if change.field is None:
-        return [*cells, "", "", "", ""]
-    values = [UNKNOWN if value is None else value for value in (change.old, change.new)]
-    return [*cells, change.field, *values, _unit(change)]
+        return [*_what_happened(change), "", "", "", ""]
+    return [*_what_happened(change), change.field, exact(change.old), exact(change.new), _unit(change)]
+
+
+def _folded_cells(changes: "Sequence[Change]") -> list[list[str]]:
+    """Cells of changes, those of a removal in one line."""
+    rows: list[list[str]] = []
+    for (*_, action), group in groupby(changes, key=_what_happened):
+        some = list(group)
+        if action == "removed":
+            values = f"{len(some)} value{'' if len(some) == 1 else 's'} (--all lists them)"
+            rows.append([*_what_happened(some[0]), "", values, UNKNOWN, ""])
+        else:
+            rows += map(_history_cells, some)
+    return rows
+
+
+def _what_happened(change: "Change") -> list[str]:
+    when = change.changed_at.replace("T", " ").removesuffix("Z")
+    return [when, exact(change.changed_by), f"{change.kind} {change.row_id}", change.action]
 
 
 def _unit(change: "Change") -> str:

@@ -2,7 +2,7 @@
 
 import sys
 from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any, Protocol, TypeVar
 
 import click
 
@@ -19,10 +19,39 @@ _SOURCE_PREFIX = "source."
 
 Values = dict[str, object]
 _Outcome = TypeVar("_Outcome")
+_Written_co = TypeVar("_Written_co", covariant=True)
 
 
-def split_fields(fields: tuple[str, ...]) -> tuple[Values, Values | None]:
-    """Values of the row and, if any was given, of its new source, from FIELD=VALUE arguments."""
+class _Write(Protocol[_Written_co]):
+    """What writes the values of a row and of its new source."""
+
+    def __call__(self, values: Values, *, source: Values | None, dry_run: bool) -> _Written_co: ...
+
+
+def write_fields(fields: tuple[str, ...], write: _Write[_Outcome], *, dry_run: bool = False) -> _Outcome:
+    """Write what FIELD=VALUE arguments say of the row and of its new source.
+
+    Raises
+    ------
+    InvalidRows
+        With everything that is wrong: arguments that say no value, and what the catalogue has against the others.
+    """
+    values, source, problems = _split_fields(fields)
+    if not problems:
+        return write(values, source=source, dry_run=dry_run)
+    told = {written.partition("=")[0] for written in fields if "=" not in written}
+    try:
+        write(values, source=source, dry_run=True)
+    except InvalidRows as error:
+        # What a column lacks because its argument says no value needs no second telling.
+        problems += [problem for problem in error.problems if problem.place not in told]
+    raise InvalidRows("nothing was written", problems)
+
+
+def _split_fields(fields: tuple[str, ...]) -> tuple[Values, Values | None, list[Problem]]:
+    """Values of the row and, if any was given, of its new source, and what is wrong with the arguments."""
+    from actuator_select.database.cells import quoted
+
     values: Values = {}
     source: Values = {}
     problems = []
@@ -31,13 +60,12 @@ def split_fields(fields: tuple[str, ...]) -> tuple[Values, Values | None]:
         target = source if name.startswith(_SOURCE_PREFIX) else values
         name = name.removeprefix(_SOURCE_PREFIX)
         if not equals:
-            problems.append(Problem(place=f"'{written}'", value="no value", expected="FIELD=VALUE"))
-        elif name in target:
-            problems.append(Problem(place=name, value=f"'{value}'", expected="each field once"))
+            problems.append(Problem(place=quoted(written), value="no value", expected="FIELD=VALUE"))
+            continue
+        if name in target:
+            problems.append(Problem(place=name, value=quoted(value), expected="each field once"))
         target[name] = value
-    if problems:
-        raise InvalidRows("nothing was written", problems)
-    return values, source or None
+    return values, source or None, problems
 
 
 def interview(

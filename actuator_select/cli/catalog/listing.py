@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 
 UNBOUNDED = 100_000  # characters in a line that nobody has to see on a screen
 MARK = "!"
+MOST_ROWS = 500  # of a table for people, where --limit does not say otherwise
 
 
 @click.command("list")
@@ -29,7 +30,12 @@ MARK = "!"
     help="Sort by these columns, a minus begins with the greatest: -mass_kg,id.",
 )
 @click.option("--columns", default="", metavar="COLUMNS", help="Show these columns, e.g. id,rated_torque_nm.")
-@click.option("--limit", type=click.IntRange(min=1), metavar="N", help="Show the first N rows only.")
+@click.option(
+    "--limit",
+    type=click.IntRange(min=1),
+    metavar="N",
+    help=f"Show the first N rows only; a table shows {MOST_ROWS} by default, CSV and JSON all.",
+)
 @options.format_option("table", "csv", "json")
 @options.database_option
 def list_rows(
@@ -39,7 +45,8 @@ def list_rows(
 
     Actuators can be filtered, sorted and shown by the columns of their parts: motor.rated_power_w, gearbox.ratio,
     winch.drum_radius_mm. The bare name does where it is unique. A terminal shows the most important columns that fit,
-    long texts cut; a pipe gets them whole. CSV and JSON give every column. – is unknown, ! a row to look at.
+    long texts cut; a pipe gets them whole. A table ends after 500 rows unless --limit says otherwise. CSV and JSON give
+    every row and column. – is unknown, ! a row to look at.
 
     \b
     Conditions:
@@ -55,38 +62,33 @@ def list_rows(
         actuator-select catalog list motors --where "peak_torque_nm >= 3 and mass_kg < 4" --sort -peak_torque_nm
         actuator-select catalog list gearboxes --format csv
     """
-    from actuator_select.database.cells import write_value
-    from actuator_select.database.csv_table import write_csv
+    from actuator_select.database.expressions import chosen_columns
     from actuator_select.database.kinds import find_kind
     from actuator_select.database.queries import columns_of
 
     found = find_kind(kind)
     every = columns_of(found)
-    chosen = _chosen_columns(columns, every)
+    chosen = chosen_columns(found, columns)
     with opened(database) as catalogue:
-        rows = catalogue.rows(found.name, where=where, sort=sort)
-        shown = rows if limit is None else rows[:limit]
-        if output_format == "json":
-            cells = [{column.name: row[column.name] for column in chosen or every} for row in shown]
-            record = {"fingerprint": catalogue.fingerprint()}
-            console.emit_json({"kind": found.name, "catalogue": record, "rows": [console.plain(row) for row in cells]})
-        marks = _marks(catalogue, found, shown) if output_format == "table" and not chosen else []
-    if output_format == "csv":
-        names = [column.name for column in chosen or every]
-        click.echo(write_csv(names, ([write_value(row[name]) for name in names] for row in shown)), nl=False)
-    elif output_format == "table":
-        if chosen:
-            _emit_rows(chosen, shown)
-        else:
-            by_name = {column.name: column for column in every}
-            _emit_rows([by_name[name] for name in found.shown], shown, marks, fit=True)
-        _say_count(found, len(shown), len(rows))
+        if output_format != "table":
+            for piece in catalogue.list_pieces(output_format, found.name, where, sort, columns, limit):
+                click.echo(piece, nl=False)
+            return
+        most = MOST_ROWS if limit is None else limit
+        rows = catalogue.rows(found.name, where, sort, columns, most)
+        total = len(rows) if len(rows) < most else catalogue.count(found.name, where)
+        marks = [] if chosen else _marks(catalogue, found, rows)
+    by_name = {column.name: column for column in every}
+    _emit_rows(chosen or [by_name[name] for name in found.shown], rows, marks, fit=not chosen)
+    _say_count(found, len(rows), total)
 
 
 def _say_count(kind: "Kind", shown: int, found: int) -> None:
     noun = kind.singular if found == 1 else kind.name
-    cut = "" if shown == found else f" of {found}"
-    console.say(f"{shown}{cut} {noun}" + (f"; a greater --limit, or none, shows more than {shown}" if cut else ""))
+    if shown == found:
+        console.say(f"{found} {noun}")
+    else:
+        console.say(f"{shown} of {found} {noun}; a greater --limit shows more, --where chooses, --format csv gives all")
 
 
 @click.command("fields")
@@ -138,14 +140,6 @@ def fields(kind: str, output_format: str) -> None:
                 click.echo(f"  {choice:<18}{meaning}")
     if found.name == "actuators":
         console.say("Conditions also take the parts' columns, such as motor.rated_power_w: see catalog fields motors.")
-
-
-def _chosen_columns(names: str, every: "Sequence[Column]") -> "list[Column]":
-    if not names.strip():
-        return []
-    from actuator_select.database.where import find_columns
-
-    return find_columns(names, every)
 
 
 def _marks(catalogue: "Catalogue", kind: "Kind", rows: "Sequence[dict[str, Any]]") -> list[str]:

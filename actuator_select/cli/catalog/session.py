@@ -32,16 +32,20 @@ def findings_of(catalogue: "Catalogue", kind: str, rows: "Sequence[Row]") -> "li
     from actuator_select.selection import check_rows
     from actuator_select.selection.plausibility_rules import RULES
 
-    if not rows or not any(rule.group for rule in RULES.get(kind, ())):
+    grouped = [rule for rule in RULES.get(kind, ()) if rule.group]
+    if not rows or not grouped:
         return check_rows(kind, rows)
     ids = {row["id"] for row in rows}
-    others = [row for row in catalogue.rows(kind) if row["id"] not in ids]
+    compared = {"id", *(name for rule in grouped for name in (rule.group, rule.quantity, *rule.needs))}
+    others = [row for row in catalogue.rows(kind, columns=",".join(sorted(compared))) if row["id"] not in ids]
     return check_rows(kind, rows, among=[*others, *rows])
 
 
 def finding_sentence(finding: "Finding") -> str:
     """Which row a finding is about, and the finding."""
-    name = "" if finding.name == finding.id else f" ({finding.name})"
+    from actuator_select.database.cells import ascii_controls
+
+    name = "" if finding.name == finding.id else f" ({ascii_controls(finding.name)})"
     return f"{finding.kind} {finding.id}{name}: {finding.text}"
 
 

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from actuator_select.database.fields import Field
     from actuator_select.selection import Finding
 
+_MOST_FITS = 5  # compatibilities that are listed
 _LEAST_ROOM = 40  # characters for a value, however narrow the terminal
 
 
@@ -50,6 +51,7 @@ def show(
         sources = {str(row["source_id"]): None for _, _, row in rows if row.get("source_id") is not None}
         known_sources = {source_id: catalogue.source(source_id) for source_id in sources}
         uses = _uses(catalogue, found, str(joined["id"]))
+        fits = catalogue.fits(str(joined["id"]), found)
         findings = [finding for _, part_kind, row in rows for finding in findings_of(catalogue, part_kind, [row])]
     if plot is not None:
         from actuator_select.report.part_figures import part_figure
@@ -63,6 +65,8 @@ def show(
         _emit_row(role, part_kind, row, known_sources, every=every)
     for text in uses:
         _emit_line("used by", text)
+    for text in _fits(found, fits):
+        _emit_line("fits", text)
     warn_of(findings)
     if findings:
         console.say("`actuator-select catalog check` holds all rows against these rules.")
@@ -114,6 +118,15 @@ def _uses(catalogue: "Catalogue", kind: str, row_id: str) -> list[str]:
     return [f"{count} {KINDS[name].singular if count == 1 else name}" for name, count in counts.items() if count] or [
         "no row"
     ]
+
+
+def _fits(kind: str, rows: "Sequence[dict[str, Any]]") -> list[str]:
+    """Which gearboxes fit a motor, or which motors a gearbox, as the first compatibilities say."""
+    other, column = ("gearboxes", "gearbox_pattern") if kind == "motors" else ("motors", "motor_pattern")
+    texts = [f"{other} {row[column]} (compatibility {row['id']})" for row in rows[:_MOST_FITS]]
+    left = len(rows) - _MOST_FITS
+    more = f"and {left} more; actuator-select catalog list compatibilities has all"
+    return [*texts, more] if left > 0 else texts
 
 
 def _emit_row(
@@ -175,10 +188,15 @@ def _link(row: dict[str, Any], source: dict[str, Any]) -> str | None:
 
 
 def _emit_line(label: str, text: str, indent: int = 0) -> None:
-    """Print a label and what belongs to it; a terminal gets lines that fit, with links whole."""
+    """Print a label and what belongs to it; a terminal gets lines that fit, with links whole.
+
+    A text keeps its lines, indented; other control characters, such as one that reverses a line, are escaped.
+    """
+    from actuator_select.database.cells import ascii_controls
+
     width = console.terminal_width()
     start = f"{' ' * indent}{label:<34}"
-    lines = text.splitlines() or [""]
+    lines = [ascii_controls(line) for line in text.replace("\r\n", "\n").split("\n")]
     if width is not None:
         room = max(width - len(start) - 1, _LEAST_ROOM)
         lines = [
