@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 
 PANELS_PER_ROW = 3
 MAPS_PER_ROW = 2
+MANY_MAPS = 4  # more stand three in a row, so that high ones keep to a page
 TITLE_WIDTH = 40  # characters of a panel's title in one line
 MAP_TITLE_WIDTH = 62
 TITLE_HEIGHT = 0.25  # inches, of one line
@@ -56,7 +57,7 @@ def workspace_panels(
     Returns
     -------
     Figure
-        Maps where the grid lies in a plane, up to two in a row; else up to three panels in 3-D in a row, of points or,
+        Maps where the grid lies in a plane, two in a row or three if many; else up to three panels in 3-D, of points or,
         where the grid is dense, of the surface of the served cells.
     """
     everywhere = np.ones(len(study.positions), dtype=np.bool_)
@@ -74,9 +75,10 @@ def _maps(
     first, second = (other for other in range(3) if other != axis)
     edges = [cell_edges(study, other) for other in (first, second)]
     width, height = (float(edge[-1] - edge[0]) for edge in edges)
-    columns = min(MAPS_PER_ROW, len(panels))
+    many = len(panels) > MANY_MAPS
+    columns = min(PANELS_PER_ROW if many else MAPS_PER_ROW, len(panels))
     rows = -(-len(panels) // columns)
-    titles = [fill(title, MAP_TITLE_WIDTH) for title, _ in panels]
+    titles = [fill(title, TITLE_WIDTH if many else MAP_TITLE_WIDTH) for title, _ in panels]
     tall = FULL_WIDTH / columns * float(np.clip(height / width, 0.15, 1.2)) + TITLE_HEIGHT * (
         1 + max(title.count("\n") for title in titles)
     )

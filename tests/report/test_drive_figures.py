@@ -31,7 +31,7 @@ def details(own: Catalogue) -> dict[str, ActuatorDetail]:
 
 def lines(figure: Figure) -> dict[str, list[np.ndarray]]:
     """Lines of a plane by their dash: points of each, and none of the axes through the origin."""
-    found: dict[str, list[np.ndarray]] = {"-": [], "--": [], "-.": []}
+    found: dict[str, list[np.ndarray]] = {"-": [], "--": [], "-.": [], ":": []}
     for line in figure.axes[0].lines:
         if line.get_linewidth() > 1.0:
             found[line.get_linestyle()].append(line.get_xydata())
@@ -109,3 +109,57 @@ def test_the_report_says_what_was_assumed_and_what_does_not_apply(own: Catalogue
     stated = render_report(rank(load_study("cpr8"), own, where="id = 'servo'"), own)
     assert "The catalogue does not state these figures" not in stated
     assert "Left out, because neither catalogue nor study states it: inertia of gearbox and drum, for servo." in stated
+
+
+def unknown(detail: ActuatorDetail, *figures: str) -> ActuatorDetail:
+    """The same actuator without these figures."""
+    nothing = dict.fromkeys(figures, np.array([np.nan]))
+    return replace(detail, figures=replace(detail.figures, **nothing))
+
+
+def test_a_caption_speaks_of_the_lines_that_are_drawn_alone(details: dict[str, ActuatorDetail]) -> None:
+    servo = details["servo"]
+    assert "inside the blue lines (rated torque and speed, continuous)" in plane_caption(servo)
+    assert "between the blue lines (rated speed, continuous)" in plane_caption(unknown(servo, "motor_torque"))
+    assert "between the blue lines (rated torque, continuous)" in plane_caption(unknown(servo, "motor_speed"))
+    neither = plane_caption(unknown(servo, "motor_torque", "motor_speed"))
+    assert "no blue line is drawn" in neither
+    assert "Blue points" not in neither
+    peak = plane_caption(replace(servo, greatest_speed=np.nan))
+    assert "(peak torque)" in peak
+
+
+def test_without_an_efficiency_the_plane_says_why_it_has_no_points(own: Catalogue) -> None:
+    same = {name: value for name, value in own.part("servo")[1].items() if "." not in name and name != "origin"}
+    if not [row for row in own.rows("actuators") if row["id"] == "lossless"]:
+        own.add("actuators", same | {"id": "lossless", "name": "lossless", "efficiency_percent": None})
+    selection = rank(load_study("cpr8"), own, where="id = 'lossless'")
+    (detail,) = build_dossier(selection, own).details
+    assert detail.cloud.is_empty
+    caption = plane_caption(detail)
+    assert "cannot be put at the motor, because efficiency is not known" in caption
+    assert "Blue points" not in caption
+    assert "Blue lines: rated torque and speed" in caption
+    assert not {"load torque", "load and rotor acceleration"} & set(labels(torque_speed_plane(detail)))
+    assert "A random sample" not in render_report(selection, own)
+
+
+def test_a_servo_without_rated_torque_shows_its_standstill_torque_as_such(details: dict[str, ActuatorDetail]) -> None:
+    known = replace(details["servo"], standstill_torque=0.8)
+    assert not [one for one in labels(torque_speed_plane(known)) if "standstill" in one]
+    without = unknown(known, "motor_torque")
+    figure = torque_speed_plane(without)
+    assert "standstill torque, continuous near zero speed: 0.8 N m" in labels(figure)
+    dotted = [line for line in figure.axes[0].lines if line.get_linestyle() == ":"]
+    assert sorted(line.get_ydata()[0] for line in dotted) == [-0.8, 0.8]
+    assert "Dotted: the standstill torque" in plane_caption(without)
+    assert "Dotted" not in plane_caption(unknown(replace(details["dc"], standstill_torque=0.8), "motor_torque"))
+
+
+def test_the_torque_panel_of_a_move_says_which_torque_it_shows(own: Catalogue) -> None:
+    line = {"start": (0.5, 0.5, -0.5), "stop": (2.5, 0.5, -0.5)}
+    names = {}
+    for model in ("pseudo_inverse", "force_only"):
+        run = simulate(load_study("cpr8", {"tension.model": model}), own, "dc", **line)
+        names[model] = " ".join(simulation_figure(run).axes[1].get_ylabel().split())
+    assert names == {"pseudo_inverse": "load torque [N m]", "force_only": "torque, load and rotor [N m]"}

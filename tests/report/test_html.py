@@ -8,6 +8,8 @@ from pathlib import Path
 import pytest
 
 from actuator_select import Catalogue, ReportDetails, load_study, open_catalogue, rank, render_report
+from actuator_select.selection.dossier import build_dossier
+from actuator_select.selection.plausibility import check_rows
 from tests.selection.parts import PRINTED
 
 DETAILS = ReportDetails(
@@ -80,6 +82,47 @@ def test_the_report_repeats_the_plausibility_findings_of_its_parts(page: str) ->
     for part in ("motor-2", "motor-3", "motor-4", "motor-5"):
         assert f"filipovic-kevac-2018-{part}" in page[page.index("Warnings") : page.index("What is not modelled")]
     assert "112.3 W follows from rated torque × rated speed" in page
+
+
+def test_the_report_explains_the_findings_of_shipped_parts(catalogue: Catalogue, page: str) -> None:
+    parts = " ".join(unescape(page[page.index("<h2>Parts and sources</h2>") :]).split())
+    (finding,) = [
+        one
+        for one in check_rows("motors", [catalogue.part("filipovic-kevac-2018-motor-3")[1]])
+        if one.rule == "rated_speed"
+    ]
+    assert finding.explanation is not None
+    assert f"{finding.rule}: {finding.text}. Why: {finding.explanation}</li>" in parts
+
+
+def test_the_twins_stand_in_everything_that_the_report_shows_of_the_case_study(catalogue: Catalogue) -> None:
+    selection = rank(load_study("cpr8"), catalogue)
+    details = [detail.actuator.name for detail in build_dossier(selection, catalogue).details]
+    for twin in ("Actuator 4 (maxon 236662)", "Actuator 5 (maxon DCX22L01EBSL596)"):
+        assert twin in details
+    page = " ".join(render_report(selection, catalogue, DETAILS).split())
+    compared = page[page.index("What the answer owes to the tension model") : page.index("<h2>Ranking</h2>")]
+    others = page[page.index("Actuators that the publication does not have") :]
+    for section in (compared, others[: others.index("</table>")]):
+        assert "Actuator 4 (maxon 236662)" in section
+        assert "Actuator 5 (maxon DCX22L01EBSL596)" in section
+
+
+def test_where_only_the_best_are_shown_the_report_says_of_how_many() -> None:
+    with open_catalogue(":memory:") as own:
+        row = own.part("filipovic-kevac-2018-4")[1]
+        same = {name: value for name, value in row.items() if "." not in name and name != "origin"}
+        for number in range(10):
+            own.add("actuators", same | {"id": f"a{number}", "name": f"A{number}"})
+        added = ", ".join(f"'a{number}'" for number in range(10))
+        page = render_report(rank(load_study("cpr8"), own, where=f"id in ({added})"), own, DETAILS)
+        few = render_report(rank(load_study("cpr8"), own, where="id in ('a1', 'a2')"), own, DETAILS)
+    assert page.count("Shown: the best 8 of 10 actuators.") == 3
+    assert "Shown: the best 3 of 10 actuators." in page
+    assert "Slices: the best 3 of 10 actuators." in page
+    assert "Of the best 8 of 10 actuators." in page
+    for words in ("Shown: the best", "Slices: the best", "Of the best"):
+        assert words not in few
 
 
 def test_a_part_named_like_a_script_appears_as_text() -> None:

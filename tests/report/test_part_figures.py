@@ -220,3 +220,47 @@ def test_every_duty_has_a_colour() -> None:
     from actuator_select.report.part_figures import COLOURS
 
     assert set(COLOURS) == set(Duty)
+
+
+def test_what_is_continuous_at_rated_torque_ends_at_a_rated_speed_below_the_line_and_a_far_one_is_noted() -> None:
+    note = "rated point below the line of the cold motor"
+    cold = characteristics("motors", DC).slopes[0].speed_at(0.0455)
+    for share, noted in ((0.99, False), (0.96, False), (0.94, True), (0.5, True)):
+        part = characteristics("motors", DC | {"rated_speed_rpm": share * cold, "max_speed_rpm": 6000.0})
+        (region,) = part.regions
+        assert max(speed for speed, load in region.corners if load == 0.0455) == pytest.approx(share * cold)
+        assert (note in part.notes) is noted
+        for speed, load in region.corners:
+            assert load <= part.slopes[0].load * (1.0 - speed / part.slopes[0].speed) + 1e-12
+    above = characteristics("motors", DC | {"rated_speed_rpm": 1.1 * cold})
+    assert max(speed for speed, load in above.regions[0].corners if load == 0.0455) == pytest.approx(cold)
+    assert note not in above.notes
+
+
+def test_a_printed_line_without_a_voltage_is_not_called_a_voltage_line() -> None:
+    row = {"id": "p", "electrical_convention": "dc_terminal", "stall_torque_nm": 1.4, "no_load_speed_rpm": 3702.0}
+    (line,) = characteristics("motors", row).slopes
+    assert line.name == "stall torque and no-load speed as printed, voltage not stated"
+    (known,) = characteristics("motors", row | {"nominal_voltage_v": 24.0}).slopes
+    assert known.name.startswith("voltage line at 24 V")
+
+
+def test_a_servos_straight_edge_is_said_to_be_one_where_both_its_ends_are_known() -> None:
+    note = "straight between standstill and rated point"
+    assert note in characteristics("motors", SERVO).notes
+    for unknown in ("standstill_torque_nm", "rated_torque_nm", "rated_speed_rpm"):
+        assert note not in characteristics("motors", SERVO | {unknown: None}).notes
+
+
+def test_a_speed_that_is_both_rated_and_greatest_has_one_label() -> None:
+    same = characteristics("motors", SERVO | {"max_speed_rpm": 3000.0, "rated_torque_nm": None})
+    assert {name for name in limits(same) if "speed" in name} == {"maximum and rated speed"}
+    apart = characteristics("motors", SERVO | {"rated_torque_nm": None})
+    assert {name for name in limits(apart) if "speed" in name} == {"maximum speed", "rated speed"}
+
+
+def test_at_a_drum_too_a_speed_that_is_both_rated_and_greatest_has_one_label(catalogue: Catalogue) -> None:
+    _, row = catalogue.part("Actuator 1")
+    same = {"motor.max_speed_rpm": row["motor.rated_speed_rpm"], "efficiency_percent": None}
+    part = characteristics("actuators", row | same)
+    assert [name for name in limits(part) if "speed" in name and "motor" in name] == ["motor: maximum and rated speed"]

@@ -4,6 +4,7 @@ import re
 from datetime import UTC, datetime
 from pathlib import Path
 
+import numpy as np
 import pytest
 from mpl_toolkits.mplot3d.axes3d import Axes3D
 
@@ -124,3 +125,11 @@ def test_the_finished_reports_have_their_counts_and_all_their_sections(name: str
     assert finished.count("<img") >= 5 + len(study.table.sweep)
     assert all(f"<h3>{one.title}</h3>" in finished for one in (*study.table.sweep, *study.table.note))
     assert len(finished.encode()) < 2_500_000
+
+
+@pytest.mark.parametrize(("count", "columns"), [(2, 2), (4, 2), (8, 3)])
+def test_many_maps_stand_three_in_a_row(count: int, columns: int) -> None:
+    study = load_study("qi-a")
+    served = np.ones(len(study.positions), dtype=np.bool_)
+    figure = workspace_panels(study, [(f"Actuator {number}", served) for number in range(count)])
+    assert figure.axes[0].get_subplotspec().get_gridspec().ncols == columns
