@@ -135,7 +135,7 @@ def test_rank_says_in_one_line_which_limits_are_not_checked(run: Run) -> None:
     (line,) = [line for line in out.splitlines() if line.startswith("Not checked")]
     assert line == (
         "Not checked, even where the catalogue states it: the motor's peak torque, greatest speed and heating; the "
-        "gearbox's continuous and intermittent torque and input speed; the inertia of gearbox and drum; the winch's "
+        "gearbox's continuous and intermittent torque and input speed; the winch's "
         "tension and speed; the rope's breaking force."
     )
 
