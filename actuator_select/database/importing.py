@@ -45,6 +45,8 @@ class ImportReport:
         Numbers of rows.
     dry_run : bool
         Whether nothing was written.
+    notices : tuple of str
+        What to mind: what was passed over.
     """
 
     kind: str
@@ -53,6 +55,7 @@ class ImportReport:
     unchanged: int = 0
     removed: int = 0
     dry_run: bool = False
+    notices: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

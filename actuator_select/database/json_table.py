@@ -143,5 +143,5 @@ def _rule(field: Field, unit: str) -> "Conversion | None":
     try:
         rule = conversion(unit, field)
     except UnitRefused as refused:
-        raise Refused(field.expected, f"{quoted(unit)} {refused}") from refused
+        raise Refused(field.expected, f"the unit {quoted(unit)} {refused}") from refused
     return None if rule.changes_nothing else rule

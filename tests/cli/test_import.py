@@ -65,3 +65,13 @@ def test_an_import_that_cannot_be_meant_is_explained(
     status, out, err = run("catalog", "import", "motors.csv", *arguments)
     assert (status, out) == (2, "")
     assert words in err
+
+
+def test_files_that_are_not_read_are_named_on_stderr(run: Run, tmp_path: Path) -> None:
+    folder = tmp_path / "own"
+    folder.mkdir()
+    (folder / "motors.csv").write_text(f"id,source_id\nm1,{SOURCE}\n")
+    (folder / "prices.csv").write_text("a\n")
+    status, out, err = run("catalog", "import", "own")
+    assert (status, out) == (0, "")
+    assert "Warning: not read of own: file prices.csv" in err

@@ -150,7 +150,7 @@ COLUMN = "columns.x"
         (
             {"kind": "motors", "columns": {"x": {"field": "mass_kg", "unit": "mNm"}}},
             f"own.toml, {COLUMN}.unit",
-            "mNm measures",
+            "does not measure what kg measures",
         ),
         (
             {"kind": "motors", "columns": {"x": {"field": "back_emf_constant_v_s_per_rad", "unit": "rpm/V"}}},

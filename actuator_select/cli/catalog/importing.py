@@ -133,3 +133,5 @@ def _tell(file: Path, report: "ImportReport") -> None:
         console.say(f"Dry run of {file}: {report.kind} would be {done}. Nothing was written.")
     else:
         console.say(f"Imported {file}: {report.kind}: {done}.")
+    for notice in report.notices:
+        console.warn(notice)
