@@ -202,5 +202,5 @@ def _unmapped(table: Table, name: str, mapping: "ColumnMapping") -> Problem:
         place=table.header_place,
         value=quoted(name),
         expected=f"a column that the mapping {mapping.name} names",
-        remedy=f'say there what it fills, or pass it over with "{name}" = {{ ignore = true }}',
+        remedy=f'say there what it fills, or pass it over with "{name}" = {{ ignore = true }}{mapping.copy_hint}',
     )

@@ -146,11 +146,19 @@ def _row_problems(kind: Kind, record: Record, row: queries.Row) -> list[Problem]
             continue
         if record.header and kind.field(column).required and column not in record.written:
             # Told once, not for every line.
-            value, remedy = f"there is no column {column!r}", "add the column"
+            value, remedy = f"there is no column {column!r}", _how_to_fill(column, record)
             problems.append(Problem(place=record.header, value=value, expected=refused.expected, remedy=remedy))
         else:
             problems.append(refused.at(record.at(column), row.get(column)))
     return problems
+
+
+def _how_to_fill(column: str, record: Record) -> str:
+    how = f"let {record.mapping} fill it" if record.mapping else "add the column"
+    if column != "source_id":
+        return how
+    new = "`actuator-select catalog add sources id=ID …` adds a source"
+    return f"state --source ID for all rows; {new}" if record.mapping else f"{how}, or state --source ID; {new}"
 
 
 def _line(problem: Problem) -> int:

@@ -30,6 +30,8 @@ class Record:
         The values, without those that were refused.
     refused : collection of str
         Columns in which something was written that cannot be taken.
+    mapping : str
+        Name of the mapping that says what the columns fill; empty where they are the catalogue's own.
     """
 
     place: str
@@ -38,6 +40,7 @@ class Record:
     written: Collection[str]
     given: Mapping[str, Value]
     refused: Collection[str] = ()
+    mapping: str = ""
 
 
 def iter_records(heading: Heading) -> Iterator[tuple[int, Record | None, list[Problem]]]:
@@ -59,6 +62,7 @@ def iter_records(heading: Heading) -> Iterator[tuple[int, Record | None, list[Pr
         Where the file cannot be read on.
     """
     table, readers = heading.table, heading.readers
+    mapping = heading.mapping.name if heading.mapping is not None and heading.mapping.columns else ""
     width, header = len(table.header), table.header_place
     constants = {one.field.name: one.value for one in heading.constants}
     for number, cells in table.read_lines():
@@ -89,6 +93,7 @@ def iter_records(heading: Heading) -> Iterator[tuple[int, Record | None, list[Pr
                 written=heading.written,
                 given=given,
                 refused=refused,
+                mapping=mapping,
             ),
             problems,
         )
