@@ -160,7 +160,7 @@ class _Intake:
         while self._can_go_on and (portion := list(islice(lines, _PORTION))):
             report = self._take_portion(heading, portion, report)
         self._done += table.length
-        return report
+        return report if table.notices is None else replace(report, notices=table.notices())
 
     def remove_others(self, kind: Kind) -> int:
         """Remove the rows of a kind that were not in the file; how many there were."""

@@ -32,6 +32,8 @@ class Record:
         Columns in which something was written that cannot be taken.
     mapping : str
         Name of the mapping that says what the columns fill; empty where they are the catalogue's own.
+    id_from : str
+        What the mapping makes the id of; empty where it is written.
     """
 
     place: str
@@ -41,6 +43,7 @@ class Record:
     given: Mapping[str, Value]
     refused: Collection[str] = ()
     mapping: str = ""
+    id_from: str = ""
 
 
 def iter_records(heading: Heading) -> Iterator[tuple[int, Record | None, list[Problem]]]:
@@ -94,6 +97,7 @@ def iter_records(heading: Heading) -> Iterator[tuple[int, Record | None, list[Pr
                 given=given,
                 refused=refused,
                 mapping=mapping,
+                id_from="" if heading.mapping is None else heading.mapping.id_from,
             ),
             problems,
         )

@@ -91,10 +91,9 @@ def id_from(template: str, given: Mapping[str, Value]) -> str | None:
 def _translate_word(field: Field, values: Mapping[str, str], mapping: ColumnMapping, cell: object) -> Value:
     word = str(cell).strip()
     if word not in values:
-        raise Refused(
-            f"one of {', '.join(values)}",
-            f"say in the values of {mapping.name} which {field.name} it means{mapping.copy_hint}",
-        )
+        # It does not name our column: of a cell that fills several this is told once.
+        remedy = f"say in the values of {mapping.name} what it means{mapping.copy_hint}"
+        raise Refused(f"one of {', '.join(values)}", remedy)
     return reader_of(field)(values[word])
 
 

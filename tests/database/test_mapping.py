@@ -66,7 +66,7 @@ def test_foreign_columns_and_units_become_ours(catalogue: Catalogue, write_csv: 
         ("Acme;28,3", "Acme;-3", "Torque", "-3 mNm was given, which is -0.003 N m"),
         ("Acme;28,3", "Acme;much", "Torque", "leave it empty if it is unknown"),
         ("350;", "0;", "kn", "0 rpm/V is no figure"),
-        (";brushless", ";stepper", "Kind", "say in the values of acme.toml which motor_type it means"),
+        (";brushless", ";stepper", "Kind", "say in the values of acme.toml what it means"),
         ("A 2/24", "A 1-24", "Model", "remove or rename one"),
     ],
 )
@@ -319,8 +319,8 @@ def test_a_constant_that_cannot_stand_is_explained(constants: dict[str, object],
 
 
 def test_a_text_alone_names_the_field() -> None:
-    mapping = read_mapping({"kind": "motors", "columns": {"Type": "id", "No": ["part_number", "name"]}}, "own.toml")
-    assert [one.field for fillings in mapping.columns.values() for one in fillings] == ["id", "part_number", "name"]
+    mapping = read_mapping({"kind": "motors", "columns": {"Type": "id", "No": ["part_number", "notes"]}}, "own.toml")
+    assert [one.field for fillings in mapping.columns.values() for one in fillings] == ["id", "part_number", "notes"]
 
 
 @pytest.mark.parametrize(
@@ -369,3 +369,25 @@ def test_a_word_that_a_shipped_mapping_lacks_is_told_once_with_the_way_to_a_copy
     told = [str(one) for one in error.value.problems if "'stepper'" in str(one)]
     assert len(told) == text.count("stepper")
     assert "catalog import --show-mapping mgdb-motors > own.toml" in told[0]
+
+
+def test_a_file_with_names_of_columns_is_no_list_of_pairs(catalogue: Catalogue, write_csv: Write) -> None:
+    with pytest.raises(InvalidRows, match="line 1: the name of a column, 'key', expected a key and those"):
+        catalogue.import_file(
+            write_csv("m.csv", MGDB_MOTORS), mapping="mgdb-compatibility", source="filipovic-kevac-2018"
+        )
+
+
+def test_lines_of_a_key_alone_are_counted(catalogue: Catalogue, write_csv: Write) -> None:
+    path = write_csv("compatibility.csv", "IN_1,GI_1\nIN_2\nIN_3,,\n")
+    (report,) = catalogue.import_file(path, mapping="mgdb-compatibility", source="filipovic-kevac-2018")
+    words = "passed over: 2 lines of compatibility.csv with a key and nothing that belongs to it"
+    assert (report.added, report.notices) == (1, (words,))
+
+
+def test_patterns_that_differ_only_in_what_an_id_cannot_hold_are_explained(
+    catalogue: Catalogue, write_csv: Write
+) -> None:
+    path = write_csv("compatibility.csv", "IN_1,GI*,GI-\n")
+    with pytest.raises(InvalidRows, match=r"made as \{motor_pattern\}--\{gearbox_pattern\}, with a hyphen"):
+        catalogue.import_file(path, mapping="mgdb-compatibility", source="filipovic-kevac-2018")
