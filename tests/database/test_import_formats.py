@@ -87,7 +87,7 @@ def test_failed_formulas_and_dates_in_place_of_numbers_are_named_by_their_cells(
     assert told[2].startswith(f"{place} D2, notes: '#N/A'")
     assert told[3].startswith(f"{place} B3, rated_power_w: '=1+1'")
     assert "never calculated" in told[3]
-    assert told[4].startswith(f"{place} C3, rated_torque_nm: 'True'")
+    assert told[4].startswith(f"{place} C3, rated_torque_nm: 'true'")
     assert len(told) == 5
 
 
@@ -237,6 +237,9 @@ def test_what_a_row_of_json_leaves_out_keeps_its_value_in_an_update(catalogue: C
         ('{"format_version": 2}', "states format_version 2, expected 1"),
         ("[[[", "is no JSON"),
         ("3", "is no catalogue"),
+        ('{"motors": [{"id": "a", "mass_kg": true, "source_id": "$"}]}', "mass_kg: 'true'"),
+        ('{"motors": [{"id": "a", "mass_kg": ["s"], "source_id": "$"}]}', "mass_kg: '[\"s\"]'"),
+        ('{"motors": [{"mass_kg": ' + "9" * 5000 + "}]}", "a number of 5000 digits is more than a number can hold"),
         ("[" * 100000, "nested too deeply|is no JSON"),
         (
             '{"motors": [{"id": "a", "mass_kg": {"Value": 1, "EngineeringUnits": "s"}, "source_id": "$"}]}',
