@@ -207,11 +207,15 @@ class Catalogue(ReadableCatalogue):
         path = Path(path)
         terms = Terms(by=f"catalog import {path.name}", mapping=found, source=source, update=update, replace=replace)
         with (
-            tables_of(path, kind, found, sheet) as tables,
+            tables_of(path, kind, found, sheet) as contents,
             writing(self._engine, keep=not dry_run) as connection,
         ):
-            reports = take_in(connection, tables, terms, progress, on_rows)
-        return [dataclasses.replace(report, dry_run=dry_run) for report in reports]
+            reports = take_in(connection, contents.tables, terms, progress, on_rows)
+        reports = [dataclasses.replace(report, dry_run=dry_run) for report in reports]
+        if reports and contents.passed_over:
+            notice = f"not read of {path.name}: {', '.join(contents.passed_over)}"
+            reports[0] = dataclasses.replace(reports[0], notices=(notice, *reports[0].notices))
+        return reports
 
     def edit(
         self,

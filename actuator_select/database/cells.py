@@ -1,5 +1,6 @@
 """Single values: from what somebody wrote to what the database holds, and back."""
 
+import json
 import re
 from collections.abc import Callable, Mapping
 from math import inf, isinf, isnan
@@ -19,9 +20,12 @@ Reader: TypeAlias = Callable[[object], Value]
 """What makes a value of what stands in a cell, or raises `Refused`."""
 
 _DECIMAL_COMMA = re.compile(r"[+-]?\d+,\d+([eE][+-]?\d+)?")
+_THOUSANDS = re.compile(r"[+-]?[0-9]{1,3}(?:(?:,[0-9]{3})+\.[0-9]*|(?:,[0-9]{3}){2,}|(?:\.[0-9]{3})+,[0-9]*)")
 _WHOLE = re.compile(r"[+-]?[0-9]{1,18}")
 _NUMBER = re.compile(r"[+-]?([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][+-]?[0-9]+)?")
 _QUANTITY = re.compile(r"([+-]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]+)?)\s*(?:[^\W\d_]|[%°])[^0-9]*")
+_DATE_AND_TIME = re.compile(r"[0-9]{4}-[0-9]{2}-[0-9]{2}[T ][0-9]")
+_DAYS = re.compile(r"[0-9]{5}(\.[0-9]+)?")  # since 1900, as spreadsheets count
 _NO_TEXT = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\x7f\ud800-\udfff]")  # they garble terminals and files
 _TOO_LARGE = "this is more than a number can hold"
 _LONG_NUMBER = 1e15  # whole numbers from here on are written with an exponent
@@ -53,6 +57,8 @@ def quoted(value: object) -> str:
     """Repeat a value in a message, shortened and without line breaks."""
     if value is None or value == "":
         return "empty"
+    if isinstance(value, bool | list | dict):
+        value = json.dumps(value, ensure_ascii=False)  # only JSON and spreadsheets have these
     text = ascii_controls(str(value))
     return f"'{text[:_QUOTED_LENGTH]}…'" if len(text) > _QUOTED_LENGTH else f"'{text}'"
 
@@ -200,8 +206,17 @@ def _read_text(field: Field, value: object) -> str:
     if field.pattern and not re.fullmatch(field.pattern, value):
         stripped = value.strip()
         spaces_only = stripped != value and re.fullmatch(field.pattern, stripped)
-        raise Refused(field.expected, "remove the spaces around it" if spaces_only else "")
+        remedy = "remove the spaces around it" if spaces_only else ""
+        if "date" in field.name.split("_"):
+            remedy = remedy or _date_remedy(value)
+        raise Refused(field.expected, remedy)
     return value
+
+
+def _date_remedy(text: str) -> str:
+    if _DATE_AND_TIME.match(text):
+        return f"write {text[:10]} without the time"
+    return "a spreadsheet counts days so; format the cell as a date or type it" if _DAYS.fullmatch(text) else ""
 
 
 def _read_number(field: Field, text: str) -> float | int:
@@ -219,6 +234,10 @@ def _read_number(field: Field, text: str) -> float | int:
 
 
 def _remedy(field: Field, text: str) -> str:
+    if _THOUSANDS.fullmatch(text):
+        has_decimal_comma = -1 < text.find(".") < text.find(",")
+        plain = text.replace(".", "").replace(",", ".") if has_decimal_comma else text.replace(",", "")
+        return f"thousands are separated, write {plain}"
     if _DECIMAL_COMMA.fullmatch(text):
         return f"a decimal comma was given, write {text.replace(',', '.')} with a point"
     word = text.casefold().lstrip("+-")

@@ -10,6 +10,7 @@ from functools import partial
 from pathlib import Path
 from typing import BinaryIO
 
+from actuator_select.database.cells import quoted
 from actuator_select.database.tables import Line, Table
 from actuator_select.errors import InvalidRows, Problem
 
@@ -22,6 +23,13 @@ SEMICOLONS = (
     'replace the semicolons by commas, or import it with a mapping that states [csv] delimiter = ";" (--mapping)'
 )
 """What to do with a file whose cells are separated by semicolons."""
+_TABS = SEMICOLONS.replace("semicolons", "tabs").replace('";"', '"\\t"')
+_MAGIC = {
+    b"SQLite format 3\0": "an SQLite database; export it first if it is a catalogue (catalog export --database)",
+    b"PK\x03\x04": "a workbook or an archive; a workbook's name ends in .xlsx, an archive has to be unpacked first",
+    b"\xd0\xcf\x11\xe0": "an old workbook; save it as .xlsx or 'CSV UTF-8'",
+    b"%PDF": "a PDF document; type its tables into a CSV file",
+}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -80,6 +88,10 @@ def read_csv(path: Path, form: CsvFormat | None = None) -> Table:
         delimiter = ";"
         problems.append(_problem(path.name, number, f"'{cells[0]}'", "cells separated by commas", SEMICOLONS))
         number, cells = next(_records(opened, path.name, form, delimiter))
+    elif form.delimiter is None and len(cells) == 1 and "\t" in cells[0]:
+        delimiter = "\t"
+        problems.append(_problem(path.name, number, quoted(cells[0]), "cells separated by commas", _TABS))
+        number, cells = next(_records(opened, path.name, form, delimiter))
     below = partial(_below, partial(_records, opened, path.name, form, delimiter), number if form.header else 0)
     sign = _SIGNS.get(delimiter, delimiter)
     return Table(
@@ -118,6 +130,8 @@ def _look_over(opened: Callable[[], BinaryIO], name: str, encoding: str) -> int:
     block = b""
     with opened() as file:
         while following := file.read(_BLOCK):
+            if not seen and (what := next((what for begin, what in _MAGIC.items() if following.startswith(begin)), "")):
+                raise InvalidRows(f"{name} is no CSV file but {what}")
             if not seen and encoding.startswith("utf-8") and following.startswith((b"\xff\xfe", b"\xfe\xff")):
                 raise InvalidRows(f"{name} is UTF-16, expected UTF-8; save it again as 'CSV UTF-8'")
             _try(decoder, following, name, encoding, (seen, lines))
@@ -137,6 +151,8 @@ def _try(decoder: codecs.IncrementalDecoder, block: bytes, name: str, encoding: 
         at = before[0] - pending + error.start
         line = before[1] + error.object[: error.start].count(b"\n") + 1
         utf_8 = encoding.startswith("utf-8")
+        if utf_8 and b"\0" in error.object:
+            raise InvalidRows(f"{name} is no text but a binary file; save the table as 'CSV UTF-8'") from error
         remedy = (
             "save it again as 'CSV UTF-8', or convert it with `iconv -f WINDOWS-1252 -t UTF-8`"
             if utf_8

@@ -1,7 +1,9 @@
 """What the columns of a table mean: which of ours each one fills, and how its cells are read."""
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Set as AbstractSet
+from dataclasses import dataclass, field, replace
+from itertools import islice
 from typing import TYPE_CHECKING
 
 from actuator_select.database.cells import Reader, Refused, Value, quoted, read_value, reader_of
@@ -92,8 +94,12 @@ def read_heading(
     constants, problems = _constants(kind, mapping, source)
     if mapping is None or not mapping.columns:
         targets, more = _own_columns(kind, table, mapping)
+        names = set(table.spellings(kind))
     else:
         targets, more = _mapped_columns(kind, table, mapping)
+        names = set(mapping.columns)
+    if not targets and (lower := _names_below(table, names)) is not None:
+        more, table = [lower], replace(table, read_lines=lambda: iter(()))  # its rows would be refused one by one
     problems += more
     taken = {field.name for _, field, _ in targets}
     problems += [
@@ -114,6 +120,21 @@ def read_heading(
     ]
 
 
+def _names_below(table: Table, names: AbstractSet[str]) -> Problem | None:
+    """Objection to a title that stands above the names of the columns."""
+    for number, cells in islice(table.read_lines(), _SEARCHED_LINES):
+        if len(names & {str(cell).strip() for cell in cells}) >= _ENOUGH_NAMES:
+            return Problem(
+                place=table.header_place,
+                value=quoted(table.header[0]),
+                expected=f"the names of the columns, which stand in {table.unit_of_lines} {number}",
+                remedy=f"remove the {table.unit_of_lines}s above them",
+            )
+    return None
+
+
+_SEARCHED_LINES = 10  # below the first; titles are shorter
+_ENOUGH_NAMES = 2  # of columns, in one line
 _Targets = list[tuple[int, Field, Reader]]
 
 
@@ -202,5 +223,5 @@ def _unmapped(table: Table, name: str, mapping: "ColumnMapping") -> Problem:
         place=table.header_place,
         value=quoted(name),
         expected=f"a column that the mapping {mapping.name} names",
-        remedy=f'say there what it fills, or pass it over with "{name}" = {{ ignore = true }}',
+        remedy=f'say there what it fills, or pass it over with "{name}" = {{ ignore = true }}{mapping.copy_hint}',
     )

@@ -45,6 +45,8 @@ class ImportReport:
         Numbers of rows.
     dry_run : bool
         Whether nothing was written.
+    notices : tuple of str
+        What to mind: what was passed over.
     """
 
     kind: str
@@ -53,6 +55,7 @@ class ImportReport:
     unchanged: int = 0
     removed: int = 0
     dry_run: bool = False
+    notices: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -157,7 +160,7 @@ class _Intake:
         while self._can_go_on and (portion := list(islice(lines, _PORTION))):
             report = self._take_portion(heading, portion, report)
         self._done += table.length
-        return report
+        return report if table.notices is None else replace(report, notices=table.notices())
 
     def remove_others(self, kind: Kind) -> int:
         """Remove the rows of a kind that were not in the file; how many there were."""

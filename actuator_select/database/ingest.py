@@ -146,11 +146,28 @@ def _row_problems(kind: Kind, record: Record, row: queries.Row) -> list[Problem]
             continue
         if record.header and kind.field(column).required and column not in record.written:
             # Told once, not for every line.
-            value, remedy = f"there is no column {column!r}", "add the column"
+            value, remedy = f"there is no column {column!r}", _how_to_fill(column, record)
             problems.append(Problem(place=record.header, value=value, expected=refused.expected, remedy=remedy))
         else:
             problems.append(refused.at(record.at(column), row.get(column)))
     return problems
+
+
+def _how_to_part(column: str, record: Record) -> str:
+    if column != "id" or not record.id_from:
+        return "remove or rename one"
+    return (
+        f"the id is made as {record.id_from}, with a hyphen for what an id cannot hold, such as *: remove one row "
+        "if both say the same, or import one by the catalogue's own columns with another id"
+    )
+
+
+def _how_to_fill(column: str, record: Record) -> str:
+    how = f"let {record.mapping} fill it" if record.mapping else "add the column"
+    if column != "source_id":
+        return how
+    new = "`actuator-select catalog add sources id=ID …` adds a source"
+    return f"state --source ID for all rows; {new}" if record.mapping else f"{how}, or state --source ID; {new}"
 
 
 def _line(problem: Problem) -> int:
@@ -168,7 +185,7 @@ def _repeated(kind: Kind, column: str, records: Sequence[Record], seen: Seen | N
         if (first := met.get(value) or new.get(value)) is not None:
             expected = f"another {column} than {first}"
             problems[index] = Problem(
-                place=record.at(column), value=quoted(value), expected=expected, remedy="remove or rename one"
+                place=record.at(column), value=quoted(value), expected=expected, remedy=_how_to_part(column, record)
             )
         else:
             new[value] = record.place

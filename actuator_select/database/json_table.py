@@ -17,6 +17,7 @@ from actuator_select.errors import InvalidRows, did_you_mean
 if TYPE_CHECKING:
     from actuator_select.database.unit_conversion import Conversion
 
+_MOST_DIGITS = 400  # a float has at most 309 before the point
 _NOT_LISTS = {"format", "format_version", "fingerprint"}
 
 
@@ -62,13 +63,21 @@ def json_tables(path: Path) -> list[Table]:
 
 def _read(path: Path) -> Any:  # noqa: ANN401 - any JSON
     try:
-        return json.loads(path.read_bytes(), object_pairs_hook=_without_repetition, parse_constant=_refuse_constant)
+        return json.loads(
+            path.read_bytes(), object_pairs_hook=_without_repetition, parse_constant=_refuse_constant, parse_int=_whole
+        )
     except OSError as error:
         raise InvalidRows(f"cannot read {path}: {error.strerror or error}; check the name of the file") from error
     except RecursionError as error:
         raise InvalidRows(f"{path.name} is nested too deeply for a catalogue") from error
     except ValueError as error:  # also of bytes that are no UTF-8
         raise InvalidRows(f"{path.name} is no JSON: {error}") from error
+
+
+def _whole(digits: str) -> int:
+    if len(digits) > _MOST_DIGITS:
+        raise ValueError(f"a number of {len(digits)} digits is more than a number can hold")
+    return int(digits)
 
 
 def _without_repetition(pairs: list[tuple[str, object]]) -> dict[str, object]:
@@ -143,5 +152,5 @@ def _rule(field: Field, unit: str) -> "Conversion | None":
     try:
         rule = conversion(unit, field)
     except UnitRefused as refused:
-        raise Refused(field.expected, f"{quoted(unit)} {refused}") from refused
+        raise Refused(field.expected, f"the unit {quoted(unit)} {refused}") from refused
     return None if rule.changes_nothing else rule

@@ -7,7 +7,7 @@ foreign file has the catalogue's own columns, and only its writing is foreign.
 import codecs
 import re
 import tomllib
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from datetime import date
 from pathlib import Path
 from typing import Annotated, Any, Literal
@@ -78,8 +78,22 @@ class Writing(_Strict):
     header: bool = True
 
 
+_EXPECTED = {
+    "dict_type": "a table",
+    "model_type": "a table",
+    "list_type": 'a list such as ["n/a"]',
+    "string_type": "a text",
+    "bool_type": "true or false",
+    "string_too_short": "one character",
+    "string_too_long": "one character",
+}
+"""What pydantic's errors say, in the words of TOML."""
+
+
 def _as_list(value: object) -> object:
-    return value if isinstance(value, list) else [value]
+    """Fillings of one column; a text alone names the field."""
+    fillings = value if isinstance(value, list) else [value]
+    return [{"field": one} if isinstance(one, str) else one for one in fillings]
 
 
 def _as_cell(value: object) -> object:
@@ -142,6 +156,14 @@ class Mapping(_Strict):
         return self.csv.header and self.layout == "table"
 
     @property
+    def copy_hint(self) -> str:
+        """How to get a copy to change, where the mapping comes with the program: the end of a remedy."""
+        name = self.name.removesuffix(".toml")
+        if name not in shipped_mappings():
+            return ""
+        return f" (in a copy: `actuator-select catalog import --show-mapping {name} > own.toml`)"
+
+    @property
     def id_columns(self) -> list[str]:
         """Our columns that the id is made from."""
         return PLACEHOLDER.findall(self.id_from)
@@ -150,6 +172,15 @@ class Mapping(_Strict):
 def shipped_mappings() -> dict[str, Path]:
     """Mappings that come with the program, by name."""
     return {path.stem: path for path in sorted(_FOLDER.glob("*.toml"))}
+
+
+def find_shipped(name: str) -> Path:
+    """File of a mapping that comes with the program; raises `UnknownName` if there is none of that name."""
+    known = shipped_mappings()
+    if name not in known:
+        hint = did_you_mean(name, list(known))
+        raise UnknownName(f"no mapping {name!r} comes with the program; {hint} (a file of your own ends in .toml)")
+    return known[name]
 
 
 def load_mapping(name: str | Path) -> Mapping:
@@ -174,13 +205,7 @@ def load_mapping(name: str | Path) -> Mapping:
     """
     path = Path(name)
     if path.suffix.casefold() != ".toml":
-        known = shipped_mappings()
-        if str(name) not in known:
-            raise UnknownName(
-                f"no mapping {str(name)!r} comes with the program; {did_you_mean(str(name), list(known))}. "
-                "A file of your own ends in .toml"
-            )
-        path = known[str(name)]
+        path = find_shipped(str(name))
     try:
         content = tomllib.loads(path.read_text(encoding="utf-8-sig"))
     except OSError as error:
@@ -198,7 +223,8 @@ def read_mapping(content: dict[str, Any], name: str) -> Mapping:
     try:
         mapping = Mapping.model_validate(content | {"name": name})
     except ValidationError as error:
-        raise InvalidRows(heading, [_schema_problem(name, one) for one in error.errors()]) from error
+        problems = [_schema_problem(name, one) for one in error.errors()]
+        raise InvalidRows(heading, [*problems, *_other_problems(content, name, error)]) from error
     try:
         kind = find_kind(mapping.kind)
     except UnknownName:
@@ -208,6 +234,26 @@ def read_mapping(content: dict[str, Any], name: str) -> Mapping:
     if problems := [*_writing_problems(mapping), *_column_problems(mapping, kind), *_constant_problems(mapping, kind)]:
         raise InvalidRows(heading, problems)
     return mapping
+
+
+def _other_problems(content: dict[str, Any], name: str, error: ValidationError) -> Sequence[Problem]:
+    """What is wrong besides, in the parts of a mapping that are formed as they should be."""
+    rest = dict(content)
+    for first, *others in (one["loc"] for one in error.errors()):
+        part = rest.get(str(first))
+        if others and isinstance(part, dict):
+            rest[str(first)] = {key: value for key, value in part.items() if key != others[0]}
+        else:
+            rest.pop(str(first), None)
+    if "columns" in content and not rest.get("columns"):
+        rest.pop("layout", None)  # it would miss the columns that were left out here
+    if "kind" not in rest:
+        return ()
+    try:
+        read_mapping(rest, name)
+    except InvalidRows as more:
+        return more.problems
+    return ()
 
 
 def _schema_problem(name: str, error: Any) -> Problem:  # noqa: ANN401 - pydantic's record of an error
@@ -220,8 +266,8 @@ def _schema_problem(name: str, error: Any) -> Problem:  # noqa: ANN401 - pydanti
         return Problem(place=place, value=quoted(path[-1]), expected=expected, remedy=remedy)
     if error["type"] == "missing":
         return Problem(place=place, value="empty", expected='a kind such as kind = "motors"', remedy="add it")
-    expected = (
-        error["msg"].removeprefix("Input should be ").removeprefix("Value error, ").replace("Input", "a value that")
+    expected = _EXPECTED.get(error["type"]) or error["msg"].removeprefix("Input should be ").removeprefix(
+        "Value error, "
     )
     return Problem(place=place, value=quoted(error["input"]), expected=expected)
 

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from dataclasses import dataclass
 from difflib import get_close_matches
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -15,13 +16,30 @@ from actuator_select.errors import InvalidRows, UnknownName, did_you_mean
 if TYPE_CHECKING:
     from actuator_select.database.mapping import Mapping
 
+_FORMATS = {".csv", ".tsv", ".txt", ".xls", ".xlsx", ".ods", ".json"}
 _NEARLY_A_KIND = 0.8  # of all letters are those of a kind's name; "gearboxs" has 0.94, "Motor notes" 0.7
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Contents:
+    """What a file or a folder holds.
+
+    Attributes
+    ----------
+    tables : list of (Kind, Table)
+        In an order in which references point backwards.
+    passed_over : tuple of str
+        Sheets, lists and files that are not read: ``sheet Notes``.
+    """
+
+    tables: list[tuple[Kind, Table]]
+    passed_over: tuple[str, ...] = ()
 
 
 @contextmanager
 def tables_of(
     path: Path, kind: str | None, mapping: "Mapping | None" = None, sheet: str | None = None
-) -> Iterator[list[tuple[Kind, Table]]]:
+) -> Iterator[Contents]:
     """Open a file or a folder while its tables are read.
 
     Parameters
@@ -37,8 +55,8 @@ def tables_of(
 
     Yields
     ------
-    list of (Kind, Table)
-        In an order in which references point backwards.
+    Contents
+        Its tables, and what is passed over.
 
     Raises
     ------
@@ -72,25 +90,29 @@ def tables_of(
 
         yield _with_kinds(json_tables(path), path, "list", wanted)
     elif path.is_dir():
-        files = _csv_files(path)
+        entries = _files(path)
+        files = [file for file in entries if file.suffix.casefold() == ".csv"]
         _refuse_near_names([file.stem for file in files], path, "file", wanted)
         # The others need not be readable.
         named = [file for file in files if (one := kind_named(file.stem)) and wanted in {None, one}]
-        yield _with_kinds([_csv_table(file, mapping) for file in named], path, "file", wanted)
+        read = _with_kinds([_csv_table(file, mapping) for file in named], path, "file", wanted)
+        yield Contents(
+            tables=read.tables, passed_over=tuple(f"file {file.name}" for file in entries if file not in named)
+        )
     else:
         table = _csv_table(path, mapping)
-        yield [(find_kind(wanted or kind_of(table)), table)]
+        yield Contents(tables=[(find_kind(wanted or kind_of(table)), table)])
 
 
 def _with_kinds(
     tables: Sequence[Table], path: Path, part: str, wanted: str | None, *, is_stated: bool = False
-) -> list[tuple[Kind, Table]]:
+) -> Contents:
     """Tables and their kinds, in an order in which references point backwards; others are passed over."""
     if wanted is not None and len(tables) == 1 and (is_stated or kind_named(tables[0].title) in {None, wanted}):
-        return [(KINDS[wanted], tables[0])]
+        return Contents(tables=[(KINDS[wanted], tables[0])])
     named = [(KINDS[name], table) for table in tables if (name := kind_named(table.title))]
     if wanted is None and not named and len(tables) == 1:
-        return [(KINDS[kind_of(tables[0])], tables[0])]
+        return Contents(tables=[(KINDS[kind_of(tables[0])], tables[0])])
     found = [(kind, table) for kind, table in named if wanted in {None, kind.name}]
     titles = [table.title for table in tables]
     _refuse_near_names(titles, path, part, wanted)
@@ -103,12 +125,17 @@ def _with_kinds(
     if twice := next((name for name in names if names.count(name) > 1), None):
         how = "state one with --sheet" if part == "sheet" else "keep one of them"
         raise InvalidRows(f"{path} has several {part}s for {twice}; {how}")
-    return sorted(found, key=lambda one: list(KINDS).index(one[0].name))
+    read = [table.title for _, table in found]
+    return Contents(
+        tables=sorted(found, key=lambda one: list(KINDS).index(one[0].name)),
+        passed_over=tuple(f"{part} {title}" for title in titles if title not in read),
+    )
 
 
-def _csv_files(folder: Path) -> list[Path]:
+def _files(folder: Path) -> list[Path]:
+    """Files of a folder that look like tables, of whatever format."""
     try:
-        return sorted(file for file in folder.iterdir() if file.suffix.casefold() == ".csv" and file.is_file())
+        return sorted(one for one in folder.iterdir() if one.suffix.casefold() in _FORMATS and one.is_file())
     except OSError as error:
         raise InvalidRows(f"cannot read {folder}: {error.strerror or error}; check its permissions") from error
 

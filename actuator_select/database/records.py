@@ -30,6 +30,10 @@ class Record:
         The values, without those that were refused.
     refused : collection of str
         Columns in which something was written that cannot be taken.
+    mapping : str
+        Name of the mapping that says what the columns fill; empty where they are the catalogue's own.
+    id_from : str
+        What the mapping makes the id of; empty where it is written.
     """
 
     place: str
@@ -38,6 +42,8 @@ class Record:
     written: Collection[str]
     given: Mapping[str, Value]
     refused: Collection[str] = ()
+    mapping: str = ""
+    id_from: str = ""
 
 
 def iter_records(heading: Heading) -> Iterator[tuple[int, Record | None, list[Problem]]]:
@@ -59,6 +65,7 @@ def iter_records(heading: Heading) -> Iterator[tuple[int, Record | None, list[Pr
         Where the file cannot be read on.
     """
     table, readers = heading.table, heading.readers
+    mapping = heading.mapping.name if heading.mapping is not None and heading.mapping.columns else ""
     width, header = len(table.header), table.header_place
     constants = {one.field.name: one.value for one in heading.constants}
     for number, cells in table.read_lines():
@@ -89,6 +96,8 @@ def iter_records(heading: Heading) -> Iterator[tuple[int, Record | None, list[Pr
                 written=heading.written,
                 given=given,
                 refused=refused,
+                mapping=mapping,
+                id_from="" if heading.mapping is None else heading.mapping.id_from,
             ),
             problems,
         )

@@ -13,6 +13,8 @@ from actuator_select.errors import Problem, UnknownName
 Line: TypeAlias = tuple[int, Sequence[object]]
 """Number of a line, and its cells."""
 
+_NAMES_OF_KEYS = {"key", "id", "motor", "gearbox", "source_id", "motor_pattern", "gearbox_pattern"}
+
 ABSENT = object()
 """Stands in place of a cell where a line says nothing of a column, which is not the same as an empty cell."""
 
@@ -47,6 +49,8 @@ class Table:
         Whether columns may also have their names of OPC 40400-1.
     problems : tuple of Problem
         What is wrong with the file as a whole although its lines can be read.
+    notices : callable or None
+        Says what to mind, once the lines have been read.
     """
 
     name: str
@@ -61,6 +65,7 @@ class Table:
     on_torn: str = ""
     knows_opc: bool = False
     problems: tuple[Problem, ...] = field(default=())
+    notices: Callable[[], tuple[str, ...]] | None = None
 
     @property
     def header_place(self) -> str:
@@ -121,9 +126,31 @@ def one_to_many(table: Table) -> Table:
     Table
         With the columns ``1`` and ``2``: the key, and one of the others.
     """
+    alone: set[int] = set()
 
     def read_lines() -> Iterator[Line]:
         for number, (key, *others) in table.read_lines():
-            yield from ((number, (key, other)) for other in others if other not in {None, ""})
+            found = [other for other in others if other not in {None, ""}]
+            if not found:
+                alone.add(number)
+            yield from ((number, (key, other)) for other in found)
 
-    return replace(table, header=("1", "2"), read_lines=read_lines)
+    def notices() -> tuple[str, ...]:
+        count = f"{len(alone)} {table.unit_of_lines}{'s' if len(alone) > 1 else ''}"
+        return (f"passed over: {count} of {table.name} with a key and nothing that belongs to it",) if alone else ()
+
+    problems = (*table.problems, *_names_among_pairs(table))
+    return replace(table, header=("1", "2"), read_lines=read_lines, problems=problems, notices=notices)
+
+
+def _names_among_pairs(table: Table) -> Iterator[Problem]:
+    """Objection to a first line that names columns, as other files of the same people do."""
+    number, cells = next(table.read_lines(), (0, ()))
+    name = next((cell for cell in cells if str(cell).strip().casefold() in _NAMES_OF_KEYS), None)
+    if name is not None:
+        yield Problem(
+            place=table.line_place(number),
+            value=f"the name of a column, '{name}'",
+            expected="a key and those that belong to it, from the first line on",
+            remedy="take the mapping for such a file, or remove the line of names",
+        )

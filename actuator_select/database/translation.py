@@ -38,7 +38,7 @@ def translator(field: Field, filling: Filling, mapping: ColumnMapping) -> Reader
     unlimited = frozenset(word.casefold() for word in filling.unlimited)
     read = _text_translator(field, filling) if field.is_text else _number_translator(field, filling, mapping)
     if filling.values:
-        read = partial(_translate_word, field, filling.values, mapping.name)
+        read = partial(_translate_word, field, filling.values, mapping)
 
     def read_cell(cell: object) -> Value:
         if cell is None:
@@ -88,10 +88,12 @@ def id_from(template: str, given: Mapping[str, Value]) -> str | None:
     return None if missing else made_id(text)
 
 
-def _translate_word(field: Field, values: Mapping[str, str], mapping: str, cell: object) -> Value:
+def _translate_word(field: Field, values: Mapping[str, str], mapping: ColumnMapping, cell: object) -> Value:
     word = str(cell).strip()
     if word not in values:
-        raise Refused(f"one of {', '.join(values)}", f"say in the values of {mapping} which {field.name} it means")
+        # It does not name our column: of a cell that fills several this is told once.
+        remedy = f"say in the values of {mapping.name} what it means{mapping.copy_hint}"
+        raise Refused(f"one of {', '.join(values)}", remedy)
     return reader_of(field)(values[word])
 
 

@@ -31,6 +31,7 @@ _DEFINITIONS = (
     "lbm = pound",
     "gcm = gram * centimeter",
     "kgcm = kilogram * centimeter",
+    "kp = force_kilogram",
 )
 _SUPERSCRIPTS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-")
 _SPELLINGS: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
@@ -40,10 +41,27 @@ _SPELLINGS: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
     # A number right before a unit is a factor of it: 10⁻⁷kgm², V/1000min⁻¹.
     (r"(?<![\w.])(\d+(?:\.\d+)?(?:[eE][-+]?\d+)?)(?![eE][-+]?\d)(?=[A-Za-zµμΩ(])", r"\1*"),
     (r"[·⋅∙×•]", "*"),
+    # Capitals, and words that makers write with one.
+    (
+        r"(?<![A-Za-z])(?:Watts?|Volts?|Amp(?:ere)?s?|Inch(?:es)?|Ounces?|Pounds?|Grams?|OZF?|LB[FS]?|IN|FT)(?![A-Za-z])",
+        lambda word: word[0].lower(),
+    ),
+    (r"\b(?:KG|Kg)(?![a-z])", "kg"),
+    (r"\bK[Ww]\b", "kW"),
+    (r"\bHP\b", "hp"),
+    (r"\b(foot|ft|lb|oz|in)\.(?=[\s-]|$)", r"\1"),
+    (r"\bfoot[-\s]?pounds?\b", "ft lb"),
+    (r"\binch[-\s]?pounds?\b", "in lb"),
+    (r"\bkpcm\b", "kp cm"),
+    (r"\bkgfcm\b", "kgf cm"),
+    (r"(?<=\bm)Ohms?\b", "ohm"),
+    # A coulomb per watt is no figure of a motor.
+    (r"^C(?=\s*/\s*W\b)", "°C"),
     (r"µ|μ", "µ"),
     (r"Ω|Ω|\bOhms?\b", "ohm"),
     # What is said of revolutions: 1/min alone is no angular speed to pint.
     (r"\b(?:1/min|min(?:\*\*)?-1|r/min|revs?/min|U/min|RPM)(?!\w)", "rpm"),
+    (r"\bkRPM\b", "krpm"),
     (r"\b(?:1000|1,000|1e3)\s*\*?\s*rpm\b", "krpm"),
     (r"\brps\b", "(revolution/second)"),
     (r"(?:°|\bdeg)\s?([CF])(?=\s*/)", r"delta_deg\1"),
@@ -68,6 +86,25 @@ _SEPARATE_POWERS = (
     ("gcm**2", "gram*centimeter**2"),
     ("gmm**2", "gram*millimeter**2"),
 )
+# What pint reads otherwise than the one who wrote it, most likely, and what to write for either.
+_DOUBTFUL = {
+    "gr": "g for gram or grain",
+    "gm": "g",
+    "ton": "t for 1000 kg, or short_ton or long_ton",
+    "tons": "t for 1000 kg, or short_ton or long_ton",
+    "u": "g, or kg",
+    "a": "A for ampere, or year",
+    "d": "day",
+    "Mm": "mm, or 1000 km",
+    "Mg": "mg, or t for 1000 kg",
+    "Ms": "ms, or 1e6 s",
+    "MH": "mH",
+    "MNm": "mNm, or 1e6 N m",
+    "MA": "mA",
+    "MV": "mV",
+    "PS": "metric_horsepower, or hp for 745.7 W",
+}
+_WORD = re.compile(r"[^\W\d]+")
 _ANGLE = re.compile(r"rpm|rad|rev|deg(?![CF])|turn|arc|grad")
 # Units of columns that say nothing without an angle, and what may be written for them.
 _WITH_ANGLE = {"rpm": "rpm, rad/s or rev/s", "rpm/V": "rpm/V, rad/(s V) or rev/(s V)", "arcmin": "arcmin, deg or rad"}
@@ -134,6 +171,11 @@ def conversion(unit: str, field: Field, *, reciprocal: bool = False) -> Conversi
     """
     if unit.strip() == field.unit and not reciprocal:
         return Conversion(factor=Decimal(1))
+    doubtful = next((word for word in _WORD.findall(unit) if word in _DOUBTFUL), None)
+    if doubtful is not None:
+        raise UnitRefused(f"does not say clearly what {doubtful} is; write {_DOUBTFUL[doubtful]}")
+    if not unit.strip() and field.unit not in _PURE:
+        raise UnitRefused(f"is no unit; write that of the foreign figures, such as {field.unit}")
     given, wanted = _quantity(unit), _quantity(field.unit)
     magnitude = Decimal(given.magnitude)
     if not magnitude.is_finite() or not _LEAST < magnitude < _GREATEST:
@@ -178,7 +220,7 @@ def _quantity(unit: str) -> Any:  # noqa: ANN401 - pint's quantities have no sim
         quantity = _registry().Quantity(Decimal(getattr(parsed, "magnitude", parsed)), units)
         quantity.to_base_units()  # refuses what only a logarithm converts, such as dBm
     except pint.PintError as error:
-        raise UnitRefused(f"is no known unit; {_COMMON} ({error})") from error
+        raise UnitRefused(f"is no known unit; {_COMMON}") from error
     except Exception as error:  # whatever pint's parser of expressions runs into
         raise UnitRefused(f"cannot be read as a unit; {_COMMON}") from error
     return quantity
@@ -194,11 +236,18 @@ def _factor(given: Any, wanted: Any, unit: str, field: Field, *, reciprocal: boo
         remedy = "check which column the figure belongs to"
         if not reciprocal and (1 / given).dimensionality == wanted.dimensionality:
             remedy = "it is the other way round: state reciprocal = true, or take the column that is meant"
-        said = f"one over {unit}" if reciprocal else unit
-        raise UnitRefused(
-            f"{said} measures [{given.dimensionality}] and the column's {own} [{wanted.dimensionality}]; {remedy}"
-        ) from error
+        elif not reciprocal and (with_force := _with_force(given, wanted, unit)) is not None:
+            remedy = f"write {with_force}"
+        said = "one over it" if reciprocal else "it"
+        raise UnitRefused(f"cannot stand here: {said} does not measure what {own} measures; {remedy}") from error
     return Decimal(ratio.magnitude)
+
+
+def _with_force(given: Any, wanted: Any, unit: str) -> str | None:  # noqa: ANN401
+    """The unit with forces in place of masses, where that is what the column measures: kgf cm for kg cm."""
+    if (given * _registry().Quantity(Decimal(1), "meter/second**2")).dimensionality != wanted.dimensionality:
+        return None
+    return re.sub(r"(?i:(?<![a-z])(kg|g|oz|lb)s?(?![a-z]))", lambda mass: f"{mass[1].lower()}f", unit.strip())
 
 
 def _check_angle(unit: str, field: Field) -> None:

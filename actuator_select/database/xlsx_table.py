@@ -1,5 +1,6 @@
 """Sheets of XLSX workbooks as tables: the values that the spreadsheet program shows, read row by row."""
 
+import re
 import zipfile
 import zlib
 from collections.abc import Iterator, Sequence
@@ -12,13 +13,16 @@ from typing import TYPE_CHECKING, Any
 
 from actuator_select.database.cells import Reader, Refused, Value
 from actuator_select.database.fields import Field
+from actuator_select.database.suggestions import first_of
 from actuator_select.database.tables import Line, Table
 from actuator_select.database.workbook_text import unescape_text
-from actuator_select.errors import InvalidRows
+from actuator_select.errors import InvalidRows, Problem
 
 if TYPE_CHECKING:
     from openpyxl.worksheet._read_only import ReadOnlyWorksheet
 
+_MERGED = re.compile(rb'<(?:\w+:)?mergeCell\s[^>]*?ref=["\']([A-Z]+\d+:[A-Z]+(\d+))["\']')
+_LONGEST_TAG = 200  # bytes; a tag may lie across two blocks
 _BLOCK = 1 << 20  # bytes that are looked at together
 _BROKEN = (zipfile.BadZipFile, zlib.error, EOFError, SyntaxError, KeyError, ValueError, TypeError)  # of a damaged file
 
@@ -103,6 +107,7 @@ def _table(path: Path, sheet: "ReadOnlyWorksheet", formulas: "ReadOnlyWorksheet 
         unit_of_lines="row",
         cell_name=_cell_name,
         adapt=_adapt,
+        problems=_merged_below(path, sheet, number),
         on_torn="empty the cells on the right of the named columns, or name theirs in the header",
     )
 
@@ -175,6 +180,30 @@ def _cell_name(number: int, index: int) -> str:
     from openpyxl.utils import get_column_letter
 
     return f"cell {get_column_letter(index + 1)}{number}"
+
+
+def _merged_below(path: Path, sheet: Any, header: int) -> tuple[Problem, ...]:  # noqa: ANN401 - its stubs leave that out
+    """Objection to merged cells, of which only the first holds what all of them show."""
+    found: dict[str, None] = {}
+    end = b""
+    try:
+        with sheet._get_source() as source:  # noqa: SLF001 - read row by row it has no other way to its merged cells
+            while block := source.read(_BLOCK):
+                met = _MERGED.findall(end + block)
+                found |= {one.decode(): None for one, last_row in met if int(last_row) > header}
+                end = block[-_LONGEST_TAG:]
+    except _BROKEN as error:
+        raise InvalidRows(f"the sheet {sheet.title} cannot be read ({error}); save the workbook again") from error
+    if not found:
+        return ()
+    return (
+        Problem(
+            place=f"{path.name}, sheet {sheet.title}",
+            value=f"merged cells {first_of(list(found))}",
+            expected="every cell for itself below the header, because of merged cells only the first holds a value",
+            remedy="unmerge them and fill every cell",
+        ),
+    )
 
 
 def _has_formulas(path: Path) -> bool:

@@ -51,7 +51,8 @@ def test_replace_tells_what_it_removed(run: Run, tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (["--mapping", "mgdb-motor"], "did you mean 'mgdb-motors'"),
+        (["--mapping", "mgdb-motor"], "did you mean 'mgdb-motors'? (a file of your own ends in .toml)"),
+        (["--show-mapping", "mgdb-motor"], "did you mean 'mgdb-motors'?"),
         (["--mapping", "none.toml"], "cannot read the mapping none.toml"),
         (["--update", "--replace"], "state one of them"),
         (["--source", "nowhere"], "--source: 'nowhere', expected the id of a row of sources"),
@@ -65,3 +66,22 @@ def test_an_import_that_cannot_be_meant_is_explained(
     status, out, err = run("catalog", "import", "motors.csv", *arguments)
     assert (status, out) == (2, "")
     assert words in err
+
+
+def test_files_that_are_not_read_are_named_on_stderr(run: Run, tmp_path: Path) -> None:
+    folder = tmp_path / "own"
+    folder.mkdir()
+    (folder / "motors.csv").write_text(f"id,source_id\nm1,{SOURCE}\n")
+    (folder / "prices.csv").write_text("a\n")
+    status, out, err = run("catalog", "import", "own")
+    assert (status, out) == (0, "")
+    assert "Warning: not read of own: file prices.csv" in err
+
+
+def test_a_shipped_mapping_is_written_to_stdout_and_can_be_used_as_a_file(run: Run, tmp_path: Path) -> None:
+    status, out, err = run("catalog", "import", "--show-mapping", "mgdb-motors")
+    assert (status, err) == (0, "")
+    (tmp_path / "own.toml").write_text(out, encoding="utf-8")
+    (tmp_path / "list.csv").write_text("key,type\nm1,DC\n", encoding="utf-8")
+    status, _, err = run("catalog", "import", "list.csv", "--mapping", "own.toml", "--source", SOURCE)
+    assert (status, "motors: 1 added" in err) == (0, True), err

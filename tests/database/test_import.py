@@ -122,6 +122,12 @@ def test_every_bad_cell_is_told_at_once_in_the_order_of_the_lines(catalogue: Cat
         ("id,source_id\na\nb,$\n", "line 2: 1 cells, expected 2 cells"),
         ("id,source_id\n\n\na,$,3\n", "line 4: 3 cells, expected 2 cells"),
         ("id;source_id\na;$\n", "replace the semicolons by commas"),
+        ("id\tsource_id\na\t$\n", "replace the tabs by commas"),
+        ("List of 2026,\nid,source_id\na,$\n", "which stand in line 2; remove the lines above them"),
+        ('id,rated_power_w,source_id\na,"1,000.5",$\n', "thousands are separated, write 1000.5"),
+        ('id,rated_power_w,source_id\na,"1.234,5",$\n', "thousands are separated, write 1234.5"),
+        ("id,price_date,source_id\na,2024-05-01 12:30:00,$\n", "write 2024-05-01 without the time"),
+        ("id,price_date,source_id\na,45413,$\n", "a spreadsheet counts days so"),
         ('id,source_id\na,"$\n', "does every cell that opens with a double quote close with one?"),
         ("", "motors.csv is empty"),
     ],
@@ -139,7 +145,8 @@ def test_a_file_that_cannot_be_understood_is_explained(
     [
         ("id,notes\na,Zürich\n".encode("latin-1"), r"not UTF-8: byte 12 \(line 2\) is 0xFC; save it again"),
         ("id,notes\na,b\n".encode("utf-16"), "UTF-16, expected UTF-8"),
-        (b"\x00\x01\x02\xff", "not UTF-8: byte 3"),
+        (b"\x00\x01\x02\xff", "is no text but a binary file"),
+        (b"SQLite format 3\0...", "is no CSV file but an SQLite database"),
     ],
 )
 def test_another_encoding_is_named(catalogue: Catalogue, tmp_path: Path, data: bytes, words: str) -> None:

@@ -87,7 +87,7 @@ def test_failed_formulas_and_dates_in_place_of_numbers_are_named_by_their_cells(
     assert told[2].startswith(f"{place} D2, notes: '#N/A'")
     assert told[3].startswith(f"{place} B3, rated_power_w: '=1+1'")
     assert "never calculated" in told[3]
-    assert told[4].startswith(f"{place} C3, rated_torque_nm: 'True'")
+    assert told[4].startswith(f"{place} C3, rated_torque_nm: 'true'")
     assert len(told) == 5
 
 
@@ -185,7 +185,7 @@ def test_a_unit_beside_a_figure_outranks_the_mappings(catalogue: Catalogue, tmp_
         ({"Value": "12 Nm", "EngineeringUnits": "mNm"}, "a unit was given"),
         ({"Value": True, "EngineeringUnits": "mNm"}, "write a number"),
         ({"Value": [1], "EngineeringUnits": "mNm"}, "write a number"),
-        ({"Value": "unlimited", "EngineeringUnits": "kg"}, "kg measures"),
+        ({"Value": "unlimited", "EngineeringUnits": "kg"}, "it does not measure what"),
         ({"Value": 1, "EngineeringUnits": 1000}, "write it plainly"),
         ({"Value": 10**400, "EngineeringUnits": "mNm"}, "more than a number can hold"),
         ({"Value": "1e400", "EngineeringUnits": "N m"}, "more than a number can hold"),
@@ -237,10 +237,13 @@ def test_what_a_row_of_json_leaves_out_keeps_its_value_in_an_update(catalogue: C
         ('{"format_version": 2}', "states format_version 2, expected 1"),
         ("[[[", "is no JSON"),
         ("3", "is no catalogue"),
+        ('{"motors": [{"id": "a", "mass_kg": true, "source_id": "$"}]}', "mass_kg: 'true'"),
+        ('{"motors": [{"id": "a", "mass_kg": ["s"], "source_id": "$"}]}', "mass_kg: '[\"s\"]'"),
+        ('{"motors": [{"mass_kg": ' + "9" * 5000 + "}]}", "a number of 5000 digits is more than a number can hold"),
         ("[" * 100000, "nested too deeply|is no JSON"),
         (
             '{"motors": [{"id": "a", "mass_kg": {"Value": 1, "EngineeringUnits": "s"}, "source_id": "$"}]}',
-            "s measures [[time]] and the column's kg [[mass]]",
+            "the unit 's' cannot stand here: it does not measure what kg measures",
         ),
         (
             '{"motors": [{"id": "a", "mass_kg": {"Value": 1}, "source_id": "$"}]}',
@@ -493,3 +496,31 @@ def test_a_damaged_sheet_is_told(catalogue: Catalogue, tmp_path: Path) -> None:
 def test_only_a_workbook_has_sheets(catalogue: Catalogue, write_csv: Write) -> None:
     with pytest.raises(UnknownName, match="is no XLSX workbook and has no sheet 'parts'"):
         catalogue.import_file(write_csv("motors.csv", "id,source_id\na,$\n"), sheet="parts")
+
+
+def test_merged_cells_below_the_header_are_refused_with_their_ranges(catalogue: Catalogue, tmp_path: Path) -> None:
+    book = Workbook()
+    sheet = book.active
+    for row in (["id", "rated_power_w", "source_id"], ["m1", 5, SOURCE], ["m2", None, SOURCE]):
+        sheet.append(row)
+    sheet.merge_cells("B2:B3")
+    sheet.merge_cells("E1:F1")
+    book.save(tmp_path / "motors.xlsx")
+    (told,) = refusal(catalogue, tmp_path / "motors.xlsx", kind="motors")
+    assert told.startswith("motors.xlsx, sheet Sheet: merged cells B2:B3, expected every cell for itself")
+    assert told.endswith("unmerge them and fill every cell")
+
+
+def test_what_is_not_read_of_a_workbook_or_a_folder_is_named(catalogue: Catalogue, tmp_path: Path) -> None:
+    rows = [["id", "source_id"], ["m1", SOURCE]]
+    (report,) = catalogue.import_file(write_xlsx(tmp_path / "p.xlsx", {"Notes": [["hello"]], "motors": rows}))
+    assert report.notices == ("not read of p.xlsx: sheet Notes",)
+    content = {"motors": [{"id": "m2", "source_id": SOURCE}], "winches": []}
+    (report,) = catalogue.import_file(write_json(tmp_path / "p.json", content), "motors")
+    assert report.notices == ("not read of p.json: list winches",)
+    folder = tmp_path / "own"
+    folder.mkdir()
+    (folder / "motors.csv").write_text(f"id,source_id\nm3,{SOURCE}\n")
+    (folder / "prices.csv").write_bytes(b"\xff")
+    (report,) = catalogue.import_file(folder)
+    assert report.notices == ("not read of own: file prices.csv",)

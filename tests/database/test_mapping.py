@@ -66,7 +66,7 @@ def test_foreign_columns_and_units_become_ours(catalogue: Catalogue, write_csv: 
         ("Acme;28,3", "Acme;-3", "Torque", "-3 mNm was given, which is -0.003 N m"),
         ("Acme;28,3", "Acme;much", "Torque", "leave it empty if it is unknown"),
         ("350;", "0;", "kn", "0 rpm/V is no figure"),
-        (";brushless", ";stepper", "Kind", "say in the values of acme.toml which motor_type it means"),
+        (";brushless", ";stepper", "Kind", "say in the values of acme.toml what it means"),
         ("A 2/24", "A 1-24", "Model", "remove or rename one"),
     ],
 )
@@ -150,7 +150,7 @@ COLUMN = "columns.x"
         (
             {"kind": "motors", "columns": {"x": {"field": "mass_kg", "unit": "mNm"}}},
             f"own.toml, {COLUMN}.unit",
-            "mNm measures",
+            "does not measure what kg measures",
         ),
         (
             {"kind": "motors", "columns": {"x": {"field": "back_emf_constant_v_s_per_rad", "unit": "rpm/V"}}},
@@ -316,3 +316,78 @@ def test_a_torn_line_is_told_by_the_sign_that_separates_the_cells(catalogue: Cat
 def test_a_constant_that_cannot_stand_is_explained(constants: dict[str, object], words: str) -> None:
     with pytest.raises(InvalidRows, match=words):
         read_mapping({"kind": "motors", "constants": constants}, "own.toml")
+
+
+def test_a_text_alone_names_the_field() -> None:
+    mapping = read_mapping({"kind": "motors", "columns": {"Type": "id", "No": ["part_number", "notes"]}}, "own.toml")
+    assert [one.field for fillings in mapping.columns.values() for one in fillings] == ["id", "part_number", "notes"]
+
+
+@pytest.mark.parametrize(
+    ("content", "words"),
+    [
+        ({"columns": 5}, "own.toml, columns: '5', expected a table"),
+        ({"columns": {"x": 5}}, "own.toml, columns.x: '5', expected a table"),
+        ({"csv": {"delimiter": ";;"}}, "own.toml, csv.delimiter: ';;', expected one character"),
+        ({"missing": "n/a"}, "own.toml, missing: 'n/a', expected a list such as"),
+        ({"columns": {"x": {"field": "id", "make_id": 1}}}, "columns.x.make_id: '1', expected true or false"),
+    ],
+)
+def test_what_is_formed_wrongly_is_told_in_the_words_of_toml(content: dict[str, object], words: str) -> None:
+    with pytest.raises(InvalidRows) as error:
+        read_mapping({"kind": "motors"} | content, "own.toml")
+    (problem,) = error.value.problems
+    assert words in str(problem)
+
+
+def test_every_problem_of_a_mapping_is_told_in_one_round() -> None:
+    columns = {"x": {"field": "mass_kg", "unit": 5}, "y": {"field": "mas_kg"}, "z": {"field": "mass_kg", "unit": "s"}}
+    content = {"kind": "motors", "colums": 1, "columns": columns, "csv": {"delimiter": ";;", "encoding": "utf-9"}}
+    with pytest.raises(InvalidRows) as error:
+        read_mapping(content, "own.toml")
+    assert {one.place.removeprefix("own.toml, ") for one in error.value.problems} == {
+        "colums", "columns.x.unit", "columns.y.field", "columns.z.unit", "csv.delimiter", "csv.encoding"
+    }  # fmt: skip
+
+
+def test_without_a_source_the_remedy_is_to_state_one(catalogue: Catalogue, write_csv: Write) -> None:
+    with pytest.raises(
+        InvalidRows, match=r"'source_id'.*; state --source ID for all rows; `actuator-select catalog add"
+    ):
+        catalogue.import_file(write_csv("m.csv", MGDB_MOTORS), mapping="mgdb-motors")
+    with pytest.raises(InvalidRows, match=r"'source_id'.*; add the column, or state --source ID"):
+        catalogue.import_file(write_csv("motors.csv", "id\nm1\n"))
+
+
+def test_a_word_that_a_shipped_mapping_lacks_is_told_once_with_the_way_to_a_copy(
+    catalogue: Catalogue, write_csv: Write
+) -> None:
+    text = MGDB_MOTORS.replace("BLDC", "stepper")
+    assert text != MGDB_MOTORS
+    with pytest.raises(InvalidRows) as error:
+        catalogue.import_file(write_csv("m.csv", text), mapping="mgdb-motors", source="filipovic-kevac-2018")
+    told = [str(one) for one in error.value.problems if "'stepper'" in str(one)]
+    assert len(told) == text.count("stepper")
+    assert "catalog import --show-mapping mgdb-motors > own.toml" in told[0]
+
+
+def test_a_file_with_names_of_columns_is_no_list_of_pairs(catalogue: Catalogue, write_csv: Write) -> None:
+    with pytest.raises(InvalidRows, match="line 1: the name of a column, 'key', expected a key and those"):
+        catalogue.import_file(
+            write_csv("m.csv", MGDB_MOTORS), mapping="mgdb-compatibility", source="filipovic-kevac-2018"
+        )
+
+
+def test_lines_of_a_key_alone_are_counted(catalogue: Catalogue, write_csv: Write) -> None:
+    path = write_csv("compatibility.csv", "IN_1,GI_1\nIN_2\nIN_3,,\n")
+    (report,) = catalogue.import_file(path, mapping="mgdb-compatibility", source="filipovic-kevac-2018")
+    words = "passed over: 2 lines of compatibility.csv with a key and nothing that belongs to it"
+    assert (report.added, report.notices) == (1, (words,))
+
+
+def test_patterns_that_differ_only_in_what_an_id_cannot_hold_are_explained(
+    catalogue: Catalogue, write_csv: Write
+) -> None:
+    path = write_csv("compatibility.csv", "IN_1,GI*,GI-\n")
+    with pytest.raises(InvalidRows, match=r"made as \{motor_pattern\}--\{gearbox_pattern\}, with a hyphen"):
+        catalogue.import_file(path, mapping="mgdb-compatibility", source="filipovic-kevac-2018")

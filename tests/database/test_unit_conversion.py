@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from actuator_select.database.fields import Field
-from actuator_select.database.kinds import GEARBOXES, MOTORS
+from actuator_select.database.kinds import GEARBOXES, MOTORS, ROPES
 from actuator_select.database.unit_conversion import UnitRefused, conversion
 
 TORQUE = MOTORS.field("rated_torque_nm")
@@ -17,6 +17,7 @@ INERTIA = MOTORS.field("rotor_inertia_g_cm2")
 SPEED = MOTORS.field("max_speed_rpm")
 KV = MOTORS.field("speed_constant_rpm_per_v")
 KE = MOTORS.field("back_emf_constant_v_s_per_rad")
+POWER = MOTORS.field("rated_power_w")
 MASS = MOTORS.field("mass_kg")
 TEMPERATURE = MOTORS.field("max_winding_temperature_c")
 THERMAL = MOTORS.field("thermal_resistance_winding_housing_k_per_w")
@@ -61,6 +62,15 @@ POUND, OUNCE, INCH, GRAVITY = 0.45359237, 0.028349523125, 0.0254, 9.80665  # int
         ("kgmm²", INERTIA, "2", 20.0),
         ("gmm²", INERTIA, "250", 2.5),
         ("lbm", MASS, "2", 0.90718474),
+        ("V/kRPM", KE, "10", 0.0954929658551372),
+        ("V/1000min-1", KE, "10", 0.0954929658551372),
+        ("kp cm", TORQUE, "1", 0.0980665),
+        ("KG", MASS, "2", 2.0),
+        ("C/W", THERMAL, "2.5", 2.5),
+        ("Watt", POWER, "3", 3.0),
+        ("KW", POWER, "3", 3000.0),
+        ("HP", POWER, "1", 745.69987158227),
+        ("mOhm", MOTORS.field("terminal_resistance_ohm"), "250", 0.25),
     ],
 )
 def test_a_figure_is_converted_exactly(unit: str, field: Field, given: str, expected: float) -> None:
@@ -74,6 +84,11 @@ def test_a_figure_is_converted_exactly(unit: str, field: Field, given: str, expe
         ("ozf·in", TORQUE, OUNCE * GRAVITY * INCH),
         ("in-lb", TORQUE, POUND * GRAVITY * INCH),
         ("lb ft", TORQUE, POUND * GRAVITY * 12.0 * INCH),
+        ("OZ-IN", TORQUE, OUNCE * GRAVITY * INCH),
+        ("LB-FT", TORQUE, POUND * GRAVITY * 12.0 * INCH),
+        ("ft lbs", TORQUE, POUND * GRAVITY * 12.0 * INCH),
+        ("ft. lbs", TORQUE, POUND * GRAVITY * 12.0 * INCH),
+        ("foot pounds", TORQUE, POUND * GRAVITY * 12.0 * INCH),
         ("in-lbs", TORQUE, POUND * GRAVITY * INCH),
         ("lbs-in", TORQUE, POUND * GRAVITY * INCH),
         ("ft-lbs", TORQUE, POUND * GRAVITY * 12.0 * INCH),
@@ -103,7 +118,16 @@ def test_other_spellings_of_the_own_unit_change_nothing(unit: str, field: Field)
 @pytest.mark.parametrize(
     ("unit", "field", "words"),
     [
-        ("kg", TORQUE, r"kg measures \[\[mass\]\] and the column's N m"),
+        ("kg", TORQUE, "it does not measure what N m measures; check which column"),
+        ("kg cm", TORQUE, "does not measure what N m measures; write kgf cm$"),
+        ("oz", ROPES.field("breaking_force_n"), "write ozf$"),
+        ("", TORQUE, "is no unit; write that of the foreign figures, such as N m"),
+        ("gr", MASS, "write g for gram or grain"),
+        ("gr cm²", INERTIA, "write g for gram or grain"),
+        ("Mm", MOTORS.field("length_mm"), "write mm, or 1000 km"),
+        ("ton", MASS, "write t for 1000 kg, or short_ton"),
+        ("M", MOTORS.field("length_mm"), "does not measure what mm measures"),
+        ("C", MOTORS.field("rated_current_a"), "does not measure what A measures"),
         ("rpm/V", KE, "reciprocal = true"),
         ("Hz", SPEED, "whether revolutions or radians"),
         ("1/s", SPEED, "does not say of which angle"),
@@ -152,7 +176,7 @@ def test_figures_beyond_all_exponents_are_zero_or_infinite() -> None:
 def test_one_over_a_figure_is_its_reciprocal() -> None:
     rule = conversion("rpm/V", KE, reciprocal=True)
     assert rule.apply("100") == 0.0954929658551372
-    with pytest.raises(UnitRefused, match="one over V s/rad measures"):
+    with pytest.raises(UnitRefused, match="one over it does not measure"):
         conversion("V s/rad", KE, reciprocal=True)
 
 

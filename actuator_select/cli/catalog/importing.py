@@ -18,10 +18,28 @@ if TYPE_CHECKING:
 _SHOWN_FINDINGS = 20  # of more only the number is told
 
 
+def _show_mapping(context: click.Context, _: click.Parameter, name: str | None) -> None:
+    """Write a mapping that comes with the program, and end."""
+    if name is None or context.resilient_parsing:
+        return
+    from actuator_select.database.mapping import find_shipped
+
+    click.echo(find_shipped(name).read_text(encoding="utf-8"), nl=False)
+    context.exit()
+
+
 @click.command("import")
 @click.argument("file", type=click.Path(path_type=Path), metavar="FILE")
 @click.option("--kind", metavar="KIND", help="Kind of the rows; by default the file's name or header tells.")
 @click.option("--mapping", metavar="NAME|FILE.toml", help="What foreign columns and units mean; see below.")
+@click.option(
+    "--show-mapping",
+    metavar="NAME",
+    is_eager=True,
+    expose_value=False,
+    callback=_show_mapping,
+    help="Write a mapping that comes with the program, to change a copy of it, and exit.",
+)
 @click.option("--source", metavar="ID", help="Source of every row; a row of sources that exists.")
 @click.option("--sheet", metavar="NAME", help="Sheet of a workbook; by default the sheets that are named after kinds.")
 @click.option("--dry-run", is_flag=True, help="Check everything and write nothing.")
@@ -133,3 +151,5 @@ def _tell(file: Path, report: "ImportReport") -> None:
         console.say(f"Dry run of {file}: {report.kind} would be {done}. Nothing was written.")
     else:
         console.say(f"Imported {file}: {report.kind}: {done}.")
+    for notice in report.notices:
+        console.warn(notice)
