@@ -57,7 +57,7 @@ def workspace_panels(
     Returns
     -------
     Figure
-        Maps where the grid lies in a plane, two in a row or three if many; else to three panels in 3-D, of points or,
+        Maps where the grid lies in a plane, two in a row or three if many; else up to three in 3-D, of points or,
         where the grid is dense, of the surface of the served cells.
     """
     everywhere = np.ones(len(study.positions), dtype=np.bool_)

@@ -3,6 +3,7 @@
 from math import isfinite
 from typing import Any
 
+from actuator_select.model.exceedance import Exceedance
 from actuator_select.selection.assumptions import Assumed
 from actuator_select.selection.part_limits import Exceeded
 from actuator_select.selection.results import CheckVerdict, RankedActuator, Selection
@@ -98,6 +99,17 @@ def _check_record(verdict: CheckVerdict) -> dict[str, Any]:
     }
 
 
+def _exceedance_record(exceedance: Exceedance) -> dict[str, Any]:
+    return {
+        "actuator": exceedance.actuator,
+        "check": exceedance.check.value,
+        "from_s": exceedance.start,
+        "to_s": exceedance.stop,
+        "worst": exceedance.worst,
+        "limit": exceedance.limit,
+    }
+
+
 def simulation_record(run: Simulation) -> dict[str, Any]:
     """Simulation as nested dicts and lists: limits, peaks per cable with their times, exceedances, pushing cables.
 
@@ -127,17 +139,9 @@ def simulation_record(run: Simulation) -> dict[str, Any]:
             ]
             for check in run.checks
         },
-        "exceedances": [
-            {
-                "actuator": one.actuator,
-                "check": one.check.value,
-                "from_s": one.start,
-                "to_s": one.stop,
-                "worst": one.worst,
-                "limit": one.limit,
-            }
-            for one in run.exceedances
-        ],
+        "torque_test": run.history.torque_test.value,
+        "exceedances": [_exceedance_record(one) for one in run.exceedances],
+        "load_and_rotor_torque_exceedances": [_exceedance_record(one) for one in run.together],
         "not_held": [{"from_s": start, "to_s": stop} for start, stop in run.unheld],
         "not_evaluated": {check.value: list(missing) for check, missing in run.missing.items()},
         "not_applicable": {check.value: reason for check, reason in run.not_applicable.items()},
