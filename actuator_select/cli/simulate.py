@@ -98,7 +98,7 @@ def print_simulation(run: "Simulation") -> None:
     """Print the peaks per actuator, what exceeds which limit when, and warnings."""
     from actuator_select.selection.move_wording import check_words, move_words, pushing_words, unheld_words
     from actuator_select.selection.simulation import UNITS
-    from actuator_select.selection.wording import assumed_words, inapplicable_words, unknown_words
+    from actuator_select.selection.wording import assumed_words, inapplicable_words, unchecked_limits, unknown_words
 
     click.echo(move_words(run))
     header = ["actuator", *(f"|{check_words(run, check)}| [{UNITS[check]}]" for check in run.checks)]
@@ -119,6 +119,9 @@ def print_simulation(run: "Simulation") -> None:
         click.echo(f"  {inapplicable_words(check, reason)}")
     for assumed in run.candidates.assumed[0]:
         click.echo(f"  assumed: {assumed_words([assumed])}")
+    if left_out := run.candidates.left_out[0]:
+        click.echo(f"  left out, because neither catalogue nor study states it: {' and '.join(left_out)}")
+    click.echo(f"Not checked, even where the catalogue states it: {unchecked_limits(run.candidates.rows)}.")
     if run.pushing:
         console.warn(pushing_words(run))
     for warning in run.glossed_over:

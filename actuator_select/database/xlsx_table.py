@@ -24,7 +24,8 @@ if TYPE_CHECKING:
 _MERGED = re.compile(rb'<(?:\w+:)?mergeCell\s[^>]*?ref=["\']([A-Z]+\d+:[A-Z]+(\d+))["\']')
 _LONGEST_TAG = 200  # bytes; a tag may lie across two blocks
 _BLOCK = 1 << 20  # bytes that are looked at together
-_BROKEN = (zipfile.BadZipFile, zlib.error, EOFError, SyntaxError, KeyError, ValueError, TypeError)  # of a damaged file
+_BROKEN = (zipfile.BadZipFile, zlib.error, EOFError, SyntaxError, KeyError, ValueError, TypeError, AttributeError)
+# What openpyxl raises of a damaged file, or of a chart sheet without a chart.
 
 
 @dataclass(frozen=True, slots=True)

@@ -134,8 +134,8 @@ def _efficiency(row: Row, assumptions: AssumptionsTable) -> tuple[float, Assumed
     """Of a gearbox that states none: a share of the greatest, which is never taken as it stands; else a given one."""
     greatest = row.get("gearbox.max_efficiency_percent")
     share, given = assumptions.gearbox_efficiency_of_maximum, assumptions.gearbox_efficiency_percent
-    if row.get("gearbox_id") is None:
-        return None
+    if row.get("gearbox_id") is None or row.get("winch.gear_ratio") is not None:
+        return None  # no gear, or one in the winch whose losses the gearbox's figures do not tell
     if greatest is not None and share is not None:
         value, key = share * float(greatest), SHARE_KEY
         text = f"gearbox efficiency {share:g} × the greatest that is stated"

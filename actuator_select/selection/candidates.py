@@ -232,15 +232,19 @@ def _figures(row: Row) -> dict[str, float]:
 
 
 def _transmission(row: Row) -> dict[str, float]:
-    """Ratio and efficiency; the assembly's own efficiency goes before the gearbox's."""
-    stated = row.get("efficiency_percent")
-    if row.get("gearbox_id") is None:
-        # A drum on the motor's shaft has no gear to lose torque in.
-        return {"ratio": 1.0, "efficiency": 1.0 if stated is None else fraction(float(stated))}
+    """Ratio and efficiency of gearbox and winch; the assembly's own efficiency goes before the gearbox's.
+
+    A drum on the motor's shaft has no gear to lose torque in. Of a winch with a gear of its own only the assembly can
+    state the losses.
+    """
+    stated, inside = row.get("efficiency_percent"), row.get("winch.gear_ratio")
+    direct = row.get("gearbox_id") is None
+    ratio = 1.0 if direct else row.get("gearbox.ratio")
+    lossless_or_gearbox = 100.0 if direct else row.get("gearbox.efficiency_percent")
+    efficiency = stated if stated is not None or inside is not None else lossless_or_gearbox
     figures = {}
-    if row.get("gearbox.ratio") is not None:
-        figures["ratio"] = float(row["gearbox.ratio"])
-    efficiency = stated if stated is not None else row.get("gearbox.efficiency_percent")
+    if ratio is not None:
+        figures["ratio"] = float(ratio) * (1.0 if inside is None else float(inside))
     if efficiency is not None:
         figures["efficiency"] = fraction(float(efficiency))
     return figures

@@ -115,14 +115,17 @@ def exceeded_part_limits(
             if column is None or not np.isfinite(per_unit[index]):
                 continue
             stated = float(row[column])
-            allowed = stated / per_unit[index] * (1.0 + ROUNDING)
+            share = float(per_unit[index])
+            if column.endswith("torque_nm") and row.get("winch.gear_ratio") is not None:
+                share /= float(row["winch.gear_ratio"])  # the winch's own gear comes behind the gearbox
+            allowed = stated / share * (1.0 + ROUNDING)
             beyond = len(ordered) - int(np.searchsorted(ordered, allowed, side="right"))
             if beyond:
                 found[index].append(
                     Exceeded(
                         column=column,
                         limit=stated,
-                        demand=float(ordered[-1] * per_unit[index]),
+                        demand=float(ordered[-1]) * share,
                         unit=limit.unit,
                         positions=beyond,
                     )

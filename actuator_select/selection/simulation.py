@@ -10,7 +10,6 @@ from actuator_select.database import Catalogue
 from actuator_select.errors import InvalidInput, Problem
 from actuator_select.model.actuation import Check, is_applicable
 from actuator_select.model.arrays import FloatArray
-from actuator_select.model.evaluation import missing_figures
 from actuator_select.model.exceedance import Exceedance, exceedances, peaks, with_peaks
 from actuator_select.model.kinematics import LEAST_CABLE_LENGTH, least_cable_lengths
 from actuator_select.model.tension import TensionModel
@@ -91,11 +90,10 @@ class Simulation:
     @property
     def missing(self) -> dict[Check, tuple[str, ...]]:
         """Checks that could not be evaluated, with the figures that they lack."""
-        actuators = self.candidates.actuators
-        lacking = {check: missing_figures(actuators, check, TensionModel.PSEUDO_INVERSE)[0] for check in Check}
+        lacking = {check: self.candidates.missing(check, TensionModel.PSEUDO_INVERSE)[0] for check in Check}
         if self.history.torque_test is TorqueTest.LOAD_AND_ROTOR:
             # What rankings call the acceleration check under such a model is the torque check here.
-            lacking[Check.TORQUE] = missing_figures(actuators, Check.ACCELERATION, self.study.tension_model)[0]
+            lacking[Check.TORQUE] = self.candidates.missing(Check.ACCELERATION, self.study.tension_model)[0]
         return {check: figures for check, figures in lacking.items() if figures}
 
     @property

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 
-from actuator_select import Catalogue, load_study, open_catalogue, rank, render_report
+from actuator_select import Catalogue, load_study, open_catalogue, rank, render_report, simulate
 from actuator_select.cli import command
 from actuator_select.model.actuation import Check, shaft_inertia
 from actuator_select.selection import selection_record
@@ -211,3 +211,31 @@ def test_csv_says_as_much_as_json_and_every_format_warns(tmp_path: Path) -> None
         assert row[f"{check}_missing"] == "; ".join(verdict["missing"])
         assert row[f"{check}_reason"] == (verdict["reason"] or "")
     assert row["voltage_reason"]
+
+
+def test_a_gear_inside_the_winch_multiplies_the_ratio_and_its_losses_are_the_assemblys_to_state() -> None:
+    row: dict[str, object] = {
+        "gearbox_id": "g",
+        "gearbox.ratio": 10.0,
+        "gearbox.efficiency_percent": 90.0,
+        "winch.drum_radius_mm": 50.0,
+    }
+    plain, geared, stated = (
+        from_rows([row | more]).actuators
+        for more in ({}, {"winch.gear_ratio": 2.0}, {"winch.gear_ratio": 2.0, "efficiency_percent": 80.0})
+    )
+    assert (plain.ratio[0], plain.efficiency[0]) == (10.0, 0.9)
+    assert geared.ratio[0] == 20.0
+    assert np.isnan(geared.efficiency[0]), "the gearbox's efficiency says nothing about the winch's gear"
+    assert (stated.ratio[0], stated.efficiency[0]) == (20.0, 0.8)
+    (direct,) = from_rows([{"winch.gear_ratio": 2.0}]).actuators.ratio
+    assert direct == 2.0
+
+
+def test_a_move_names_what_an_unknown_inertia_takes_and_what_is_left_out(tmp_path: Path) -> None:
+    with open_catalogue(tmp_path / "own.db") as own:
+        own.add("winches", {"id": "w", "drum_radius_mm": 80, "drum_inertia_kg_m2": 0.01, **SOURCE})
+        parts = {"motor_id": "mitsubishi-HC702", "gearbox_id": "beckhoff-NPS045-MF-i5", "winch_id": "w"}
+        own.add("actuators", {"id": "a", "name": "a", **parts, **SOURCE})
+        run = simulate(load_study("cpr8"), own, "a", start=(0.5, 0.5, -1.0), stop=(1.5, 0.5, -1.0))
+    assert run.missing[Check.ACCELERATION] == ("efficiency",)

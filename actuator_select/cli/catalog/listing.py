@@ -32,7 +32,7 @@ MOST_ROWS = 500  # of a table for people, where --limit does not say otherwise
 @click.option("--columns", default="", metavar="COLUMNS", help="Show these columns, e.g. id,rated_torque_nm.")
 @click.option(
     "--limit",
-    type=click.IntRange(min=1),
+    type=click.IntRange(min=1, max=1_000_000_000),
     metavar="N",
     help=f"Show the first N rows only; a table shows {MOST_ROWS} by default, CSV and JSON all.",
 )
