@@ -18,6 +18,7 @@ from actuator_select.units import kg_m2
 GEARBOX_KEY = "assumptions.gearbox_inertia_g_cm2"
 DRUM_KEY = "assumptions.drum_inertia_kg_m2"
 NO_GEARBOX, NO_DRUM = "inertia of the gearbox", "inertia of the drum"
+NO_SHAFT = "shaft of the winch's inertia (winch_inertia_at)"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -129,7 +130,7 @@ def _drum(row: Row, assumptions: AssumptionsTable, *, needed: bool) -> _Share:
     if not needed:
         return _Share()
     if given is None:
-        return _Share(left_out=(NO_DRUM,))
+        return _Share(left_out=(NO_DRUM if whole is None else NO_SHAFT,))
     assumed = Assumed(
         figure="drum_inertia",
         column="winch.drum_inertia_kg_m2",

@@ -130,6 +130,7 @@ def simulation_record(run: Simulation) -> dict[str, Any]:
         "tension_model": run.study.tension_model.value,
         "duration_s": run.duration,
         "assumptions": [_assumption_record(one) for one in run.candidates.assumed[0]],
+        "left_out": list(run.candidates.left_out[0]),
         "units": {check.value: UNITS[check] for check in run.checks},
         "limits": {check.value: _finite(run.limits[check]) for check in run.checks},
         "peaks": {

@@ -16,7 +16,9 @@ from actuator_select.cli import command
 from actuator_select.model.actuation import Check, shaft_inertia
 from actuator_select.selection import selection_record
 from actuator_select.selection.candidates import from_rows
+from actuator_select.selection.inertias import NO_SHAFT
 from actuator_select.selection.part_wording import exceeded_notes, left_out_note
+from actuator_select.selection.records import simulation_record
 from actuator_select.study import TemplateOptions, parse_study, template_text
 from actuator_select.study.schema import AssumptionsTable
 from tests.selection.parts import DC, PRINTED, SERVO, SOURCE, add_drive
@@ -52,7 +54,7 @@ def own() -> Iterator[Catalogue]:
         ({"gearbox.inertia_input_g_cm2": 0.0, "winch.drum_inertia_kg_m2": 0.0}, 1e-5, ()),
         (GEARBOX | {"winch.winch_inertia_kg_m2": 2e-3, "winch.winch_inertia_at": "drum_shaft"}, 1.5e-5 + AT_MOTOR, ()),
         (GEARBOX | {"winch.winch_inertia_kg_m2": 2e-6, "winch.winch_inertia_at": "motor_shaft"}, 1.7e-5, ()),
-        (GEARBOX | {"winch.winch_inertia_kg_m2": 2e-3}, 1.5e-5, NEITHER[1:]),
+        (GEARBOX | {"winch.winch_inertia_kg_m2": 2e-3}, 1.5e-5, (NO_SHAFT,)),
         (DRUM | {"winch.winch_inertia_kg_m2": 9.0, "winch.winch_inertia_at": "drum_shaft"}, BOTH, NEITHER[:1]),
         ({"gearbox_id": None, "efficiency_percent": None}, 1e-5, NEITHER[1:]),
         (DRUM | {"gearbox_id": None, "efficiency_percent": None}, 1e-5 + 2e-3, ()),
@@ -239,3 +241,4 @@ def test_a_move_names_what_an_unknown_inertia_takes_and_what_is_left_out(tmp_pat
         own.add("actuators", {"id": "a", "name": "a", **parts, **SOURCE})
         run = simulate(load_study("cpr8"), own, "a", start=(0.5, 0.5, -1.0), stop=(1.5, 0.5, -1.0))
     assert run.missing[Check.ACCELERATION] == ("efficiency",)
+    assert simulation_record(run)["left_out"] == list(run.candidates.left_out[0])
